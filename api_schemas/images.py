@@ -37,9 +37,6 @@ class UploadedImage(WireModel):
     )
     created_at: datetime
     expires_at: datetime | None = Field(description="When it is erased; null if it is kept.")
-    token_id: str | None = Field(
-        default=None, description="The browser's token it was uploaded with; null if with a key."
-    )
 
 
 class ImagePage(WireModel):

@@ -215,8 +215,7 @@ _TYPES: Final = (
         title="There is no room for more of your pictures",
         status=507,
         description=(
-            "As many uploaded pictures, or bytes of them, are kept as one tenant may have, or one "
-            "browser's token."
+            "As many uploaded pictures, or bytes of them, are kept as one tenant may have."
         ),
     ),
 )

@@ -55,16 +55,6 @@ def check_origin(origin: str) -> None:
         raise ValueError(message)
 
 
-def check_framing_origin(origin: str) -> None:
-    """Raise ValueError if this is no origin, or one that a list of a header cannot hold."""
-    check_origin(origin)
-    if not re.fullmatch(
-        r"(?:[A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(?::\d{1,5})?", urlsplit(origin).netloc
-    ):
-        message = f"{origin!r} names no single host; write each by itself, as in https://host"
-        raise ValueError(message)
-
-
 def check_bucket(url: str) -> None:
     """Raise ValueError unless this is the address of a bucket that can exist."""
     parts = _parts(url)

@@ -14,7 +14,6 @@ from api_schemas.webhooks import secret_key
 from fitter.detection.weights import BODY_LANDMARKS, PERSON_DETECTOR
 from service.setting_addresses import (
     check_bucket,
-    check_framing_origin,
     check_host_name,
     check_origin,
     check_web_address,
@@ -96,7 +95,6 @@ BucketUrl = Annotated[str, _that_passes(check_bucket)]
 WebAddress = Annotated[str, _that_passes(check_web_address)]
 WebhookSecret = Annotated[str, _that_passes(secret_key)]
 Origins = Annotated[str, _each_passes(check_origin)]
-FramingOrigins = Annotated[str, _each_passes(check_framing_origin)]
 HostNames = Annotated[str, _each_passes(check_host_name)]
 Ports = Annotated[str, _that_passes(_check_ports)]
 Pauses = Annotated[str, _that_passes(_check_pauses)]

@@ -16,7 +16,6 @@ from service.setting_types import (
     BucketUrl,
     DatabaseUrl,
     DetectorFolder,
-    FramingOrigins,
     HostNames,
     ModelFolder,
     NamedFolder,
@@ -76,13 +75,6 @@ class Settings(BaseSettings):
     cors_origins: Origins = Field(
         default="",
         description="Origins whose pages may call the API from a browser, separated by commas.",
-    )
-    embed_origins: FramingOrigins = Field(
-        default="",
-        description=(
-            "Origins of sites that may show the page in a frame, separated by commas; none may if "
-            "unset."
-        ),
     )
     data_dir: NamedFolder = Field(
         default=Path("maquette-data"),
@@ -394,11 +386,6 @@ class Settings(BaseSettings):
     def allowed_origins(self) -> tuple[str, ...]:
         """Origins of other sites whose pages may call the API."""
         return split_list(self.cors_origins)
-
-    @property
-    def embedding_origins(self) -> tuple[str, ...]:
-        """Origins of sites that may show the page in a frame."""
-        return split_list(self.embed_origins)
 
     @property
     def allowed_webhook_hosts(self) -> tuple[str, ...]:

@@ -19,8 +19,6 @@ from service.api.job_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.storage import disk_full, erase_at_once, storing
 from service.engine.port import (
-    FIT,
-    SCAN,
     Idempotency,
     JobRecord,
     NewJob,
@@ -89,8 +87,6 @@ async def accept(
     ProblemError
         If the job is not accepted.
     """
-    if context.token is not None and inputs.webhook is not None:
-        raise _no_notices()
     job_id = str(uuid4())
     with storing():
         # From here on the job's scope is erased automatically unless the job is accepted.
@@ -165,7 +161,7 @@ def _store(
         options=stored.options,
         inputs=stored.files,
         pictures=inputs.pictures,
-        label=_label(context, inputs),
+        label=inputs.label,
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),
@@ -176,25 +172,6 @@ def _store(
     if submission.outcome is not SubmitOutcome.ACCEPTED:
         erase_at_once(context.blobs, job_id)
     return submission
-
-
-def _label(context: ApiContext, inputs: Inputs) -> str | None:
-    """A token's label goes before that of the request; derivations have none."""
-    if context.token is None or context.token.label is None:
-        return inputs.label
-    return context.token.label if inputs.kind in (FIT, SCAN) else None
-
-
-def _no_notices() -> ProblemError:
-    return ProblemError(
-        problem(
-            "forbidden",
-            code="not-for-tokens",
-            detail="A browser's token may not have notices sent.",
-            remedy="Leave the webhook out and follow the job's events.",
-            field="webhook",
-        )
-    )
 
 
 def _accepted(submission: Submission) -> JobRecord:
@@ -213,15 +190,6 @@ def _accepted(submission: Submission) -> JobRecord:
                 code="too-many-waiting",
                 detail="Too many of your jobs are waiting already.",
                 remedy="Try again when some of them have ended.",
-            )
-        )
-    if submission.outcome is SubmitOutcome.TOKEN_SPENT:
-        raise ProblemError(
-            problem(
-                "too-many-requests",
-                code="token-spent",
-                detail="This token has had as many jobs made as it is good for.",
-                remedy="Have the site that shows this page make a new one: POST /v1/tokens.",
             )
         )
     if submission.outcome is SubmitOutcome.LOST:

@@ -13,7 +13,6 @@ from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
     bodies,
-    browser_tokens,
     derivations,
     documentation,
     health,
@@ -31,7 +30,7 @@ from service.api.authentication import Authentication
 from service.api.body_limits import BodyLimit, BodyTimeLimit, MessageFraming
 from service.api.compression import Compression
 from service.api.context import Parts
-from service.api.credentials import KeyUses, KnownKeys, KnownTokens
+from service.api.credentials import KeyUses, KnownKeys
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.job_inputs import COPIED_AT_ONCE
@@ -46,7 +45,6 @@ from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
-from service.engine.browser_token_port import BrowserTokens
 from service.engine.keys import KeyRing
 from service.engine.port import JobEngine
 from service.engine.token_port import SharedTokens
@@ -64,7 +62,6 @@ _ROUTERS: Final = (
     jobs.ROUTER,
     pictures.ROUTER,
     derivations.ROUTER,
-    browser_tokens.ROUTER,
     images.ROUTER,
     picture_questions.ROUTER,
     initial_poses.ROUTER,
@@ -108,7 +105,6 @@ def create_app(
     ask: Ask,
     keys: KeyRing,
     tokens: SharedTokens,
-    browser_tokens: BrowserTokens,
     draining: threading.Event,
 ) -> FastAPI:
     """Build the application from what outlives it: engine, blobs, disk, keys and so on.
@@ -134,7 +130,6 @@ def create_app(
 
     app = _resources(lifespan)
     metrics = ServiceMetrics(engine, disk)
-    known_tokens = KnownTokens(browser_tokens)
     app.state.parts = Parts(
         settings=settings,
         engine=engine,
@@ -145,15 +140,12 @@ def create_app(
         metrics=metrics,
         draining=draining,
         copying=CapacityLimiter(COPIED_AT_ONCE),
-        browser_tokens=browser_tokens,
-        known_tokens=known_tokens,
         readiness=Readiness(readiness_checks(engine, blobs, disk)),
     )
     _surround(
         app,
         settings=settings,
         keys=keys,
-        known_tokens=known_tokens,
         rate_limit=rate_limit,
         metrics=metrics,
     )
@@ -165,7 +157,6 @@ def _surround(
     *,
     settings: Settings,
     keys: KeyRing,
-    known_tokens: KnownTokens,
     rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
 ) -> None:
@@ -175,7 +166,6 @@ def _surround(
     app.add_middleware(
         Authentication,
         keys=KnownKeys(keys) if needs_keys else None,
-        tokens=known_tokens,
         uses=KeyUses(keys),
         rate_limit=rate_limit,
     )

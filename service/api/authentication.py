@@ -1,7 +1,4 @@
-"""Authentication: an API key names a tenant, a browser's token a key.
-
-Both are checked before the body is looked at.
-"""
+"""Authentication: an API key names a tenant. It is checked before the body is looked at."""
 
 from typing import Final
 
@@ -11,12 +8,10 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import problem
 from service.api.body_limits import refuse
-from service.api.browser_tokens import is_allowed
 from service.api.context import SOLE_TENANT, Caller
-from service.api.credentials import KeyUses, KnownKeys, KnownTokens
+from service.api.credentials import KeyUses, KnownKeys
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
-from service.engine.browser_tokens import MARK
 from service.engine.keys import ApiKey, Role
 from service.engine.port import EngineUnavailableError
 
@@ -34,8 +29,6 @@ KEY_REMEDY: Final = (
     "Send the header 'Authorization: Bearer' with a key; whoever runs the service makes one with: "
     "maquette keys create TENANT"
 )
-UNKNOWN_TOKEN: Final = "The token is unknown or has expired, or its key is revoked."
-NEW_TOKEN: Final = "Have the site that shows this page make a new one: POST /v1/tokens."
 
 
 class Authentication:
@@ -50,13 +43,11 @@ class Authentication:
         app: ASGIApp,
         *,
         keys: KnownKeys | None,
-        tokens: KnownTokens,
         uses: KeyUses,
         rate_limit: RateLimit | None,
     ) -> None:
         self._app = app
         self._keys = keys
-        self._tokens = tokens
         self._uses = uses
         self._rate_limit = rate_limit
 
@@ -83,10 +74,7 @@ class Authentication:
         if scheme.lower() != "bearer" or not presented.strip():
             raise _unauthorized(NO_KEY)
         try:
-            if presented.strip().startswith(MARK):
-                caller = await self._browser(presented.strip(), path)
-            else:
-                caller = await self._holder(self._keys, presented.strip(), path)
+            caller = await self._holder(self._keys, presented.strip(), path)
         except EngineUnavailableError as error:
             raise _not_ready() from error
         if caller.key_id is not None:
@@ -106,21 +94,13 @@ class Authentication:
             raise _forbidden(key)
         return Caller(tenant=key.tenant, key_id=key.id)
 
-    async def _browser(self, presented: str, path: str) -> Caller:
-        token = await self._tokens.find(presented)
-        if token is None:
-            raise _unauthorized(UNKNOWN_TOKEN, remedy=NEW_TOKEN)
-        if not is_allowed(path):
-            raise _beyond_token()
-        return Caller(tenant=token.tenant, key_id=token.key_id, token=token)
 
-
-def _unauthorized(detail: str, *, remedy: str = KEY_REMEDY) -> ProblemError:
+def _unauthorized(detail: str) -> ProblemError:
     return ProblemError(
         problem(
             "unauthorized",
             detail=detail,
-            remedy=remedy,
+            remedy=KEY_REMEDY,
             field="Authorization",
         ),
         headers={"WWW-Authenticate": 'Bearer realm="maquette"'},
@@ -134,18 +114,6 @@ def _forbidden(key: ApiKey) -> ProblemError:
             code="wrong-role",
             detail=f"This key is for {key.role} only.",
             remedy="Use a key made for this purpose.",
-            field="Authorization",
-        )
-    )
-
-
-def _beyond_token() -> ProblemError:
-    return ProblemError(
-        problem(
-            "forbidden",
-            code="not-for-tokens",
-            detail="A browser's token is for fits, scans and pictures of its own.",
-            remedy="Ask with the key, from a server.",
             field="Authorization",
         )
     )

@@ -8,13 +8,11 @@ from typing import Annotated, Final
 from anyio import CapacityLimiter
 from fastapi import Depends, Request
 
-from service.api.credentials import KnownTokens
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.metrics import ServiceMetrics
 from service.api.readiness import Readiness
 from service.blobs import BlobStore
-from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.image_port import TenantImages
 from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
 from service.process.data_folder import Disk
@@ -26,11 +24,10 @@ SOLE_TENANT: Final = "default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Caller:
-    """Who sends a request: for a tenant, with a key, or with a browser's token for that key."""
+    """Who sends a request: for a tenant, and with which of its keys."""
 
     tenant: str
     key_id: str | None = None
-    token: BrowserToken | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,22 +46,14 @@ class Parts:
     metrics: ServiceMetrics
     draining: threading.Event
     copying: CapacityLimiter
-    browser_tokens: BrowserTokens
-    known_tokens: KnownTokens
     readiness: Readiness
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext(Parts):
-    """The parts, and for one request its tenant's ``jobs``, fits and scans, and ``images``.
-
-    ``key_id`` is the key it came with, None where none are asked for; ``token`` the browser's token
-    that stands for it, if it does: then jobs and images are that token's alone.
-    """
+    """The parts, and for one request its tenant's ``jobs``, fits and scans, and ``images``."""
 
     tenant: str
-    key_id: str | None
-    token: BrowserToken | None
     jobs: Mapping[str, TenantJobs]
     images: TenantImages
     request_id: str | None
@@ -73,15 +62,12 @@ class ApiContext(Parts):
 def _context(request: Request) -> ApiContext:
     parts: Parts = request.app.state.parts
     caller: Caller = request.state.caller
-    token_id = None if caller.token is None else caller.token.id
     engine = parts.engine
     return ApiContext(
         **{each.name: getattr(parts, each.name) for each in fields(Parts)},
         tenant=caller.tenant,
-        key_id=caller.key_id,
-        token=caller.token,
-        jobs={root: engine.of(caller.tenant, root, token=token_id) for root in (FIT, SCAN)},
-        images=engine.images_of(caller.tenant, token=token_id),
+        jobs={root: engine.of(caller.tenant, root) for root in (FIT, SCAN)},
+        images=engine.images_of(caller.tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

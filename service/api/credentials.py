@@ -1,4 +1,4 @@
-"""A process's cache of keys and browsers' tokens, so that a request costs no query.
+"""A process's cache of keys, so that a request costs no query.
 
 Entries live for a few seconds. A key's last use is written at most once a minute, and no request
 waits for it.
@@ -13,25 +13,19 @@ from typing import Final
 
 from anyio import CapacityLimiter, to_thread
 
-from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.keys import ApiKey, KeyRing, hash_key
 from service.engine.port import EngineUnavailableError
 
 LOG: Final = logging.getLogger(__name__)
 
 REFRESH_S: Final = 5.0
-"""Within this time at the latest a key or token is refused that was revoked."""
+"""Within this time at the latest a key is refused that was revoked."""
 
 RETRY_UNKNOWN_S: Final = 0.5
 """Unknown keys cause at most one query per this time, all of them together."""
 
 BETWEEN_NOTES_S: Final = 60.0
 """Also the error of what is told: a use within this time after another is not written."""
-
-MOST_REMEMBERED: Final = 10_000
-
-LOOKED_UP_AT_ONCE: Final = 2
-"""Unknown tokens cost a query each; however many are sent, they take no more connections."""
 
 
 class KnownKeys:
@@ -100,49 +94,3 @@ class KeyUses:
             LOG.debug("The use of key %s could not be noted.", identity)
         except Exception:
             LOG.exception("The use of key %s could not be noted.", identity)
-
-
-class KnownTokens:
-    """The valid tokens, each remembered for a few seconds."""
-
-    def __init__(
-        self, tokens: BrowserTokens, *, monotonic: Callable[[], float] = time.monotonic
-    ) -> None:
-        self._tokens = tokens
-        self._monotonic = monotonic
-        self._remembered: dict[str, tuple[float, BrowserToken]] = {}
-        self._limiter = CapacityLimiter(LOOKED_UP_AT_ONCE)
-
-    async def find(self, presented: str) -> BrowserToken | None:
-        """Return the valid token that was presented; None if there is no such token.
-
-        Raises
-        ------
-        EngineUnavailableError
-            If the database is unavailable.
-        """
-        secret_hash = hash_key(presented)
-        found_at, token = self._remembered.get(secret_hash, (0.0, None))
-        if token is None or self._monotonic() - found_at >= REFRESH_S:
-            self._remembered.pop(secret_hash, None)
-            token = await to_thread.run_sync(self._tokens.find, presented, limiter=self._limiter)
-            if token is not None:
-                if len(self._remembered) >= MOST_REMEMBERED:
-                    self._remembered.clear()
-                self._remembered[secret_hash] = (self._monotonic(), token)
-        return token if token is not None and token.expires_at > time.time() else None
-
-    async def revoke(self, tenant: str, identity: str) -> bool:
-        """Revoke a tenant's token, here at once; returns whether it was valid.
-
-        Raises
-        ------
-        EngineUnavailableError
-            If the database is unavailable.
-        """
-        was_valid = await to_thread.run_sync(self._tokens.revoke, tenant, identity)
-        if was_valid:
-            for secret_hash, (_, token) in list(self._remembered.items()):
-                if token.id == identity:
-                    del self._remembered[secret_hash]
-        return was_valid

@@ -33,7 +33,6 @@ from service.engine.image_port import (
     ImageRecord,
     KeptImage,
     NewImage,
-    TokenQuotaError,
 )
 from service.engine.port import StoredBlob
 from service.submissions.refusal import RefusedError, refused
@@ -102,11 +101,7 @@ def list_images(
     limit: Limit = 50,
     cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
 ) -> ImagePage:
-    """List the pictures that are kept: with a token its own, with a key all of the tenant's.
-
-    Where the same picture was uploaded with a key and with tokens it is listed for each of them.
-    `next` and the Link header lead to the following page.
-    """
+    """List the tenant's pictures. `next` and the Link header lead to the following page."""
     found = context.images.images(limit=limit + 1, before=read_cursor(CURSOR, cursor))
     page, following = page_of(
         found,
@@ -244,11 +239,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
         size=len(content),
         focal_length_35mm=header.focal_length_35mm,
     )
-    try:
-        kept = context.images.keep(new)
-    except TokenQuotaError as error:
-        erase_at_once(context.blobs, scope)
-        raise _no_quota(error) from error
+    kept = context.images.keep(new)
     if kept is None or not kept.is_new:
         erase_at_once(context.blobs, scope)
     if kept is None:
@@ -264,14 +255,12 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
 
 
 def _no_quota(error: ImageQuotaError) -> ProblemError:
-    of_token = isinstance(error, TokenQuotaError)
     return ProblemError(
         problem(
             "quota-exceeded",
             detail=str(error),
-            remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or "
-            + ("ask with another token" if of_token else "wait until they expire")
-            + "; a fit can also bring its picture along.",
+            remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or wait until they "
+            "expire; a fit can also bring its picture along.",
         )
     )
 
@@ -286,5 +275,4 @@ def _represent(record: ImageRecord) -> UploadedImage:
         focal_length_35mm=record.focal_length_35mm,
         created_at=datetime.fromtimestamp(record.created_at, UTC),
         expires_at=datetime.fromtimestamp(record.expires_at, UTC),
-        token_id=record.token_id,
     )

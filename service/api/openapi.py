@@ -29,7 +29,6 @@ from api_schemas.scans import (
     ScanOptions,
     ScanRequest,
 )
-from api_schemas.tokens import TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from fitter.vocabulary.measurements import (
     CHIEF,
@@ -71,7 +70,6 @@ TAGS: Final[Sequence[Mapping[str, str]]] = (
     {"name": "scans", "description": "Jobs that measure a person from several pictures."},
     {"name": "results", "description": "What a fit that has succeeded found, and its files."},
     {"name": "derivations", "description": "Jobs that make something of a fit or a scan."},
-    {"name": "tokens", "description": "What browsers use in place of a key."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
     {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},
     {"name": "body models", "description": "The bodies that are fitted."},
@@ -106,7 +104,7 @@ _SECURITY: dict[str, Any] = {
             "type": "http",
             "scheme": "bearer",
             "description": "An API key, where the service asks for one "
-            "(`MAQUETTE_AUTHENTICATION=keys`), or a token that `/v1/tokens` made with it.",
+            "(`MAQUETTE_AUTHENTICATION=keys`).",
         }
     }
 }

@@ -15,8 +15,6 @@ _FIRST_PICTURE: Final[Mapping[str, Mapping[str, str]]] = {FIT: {}, SCAN: {"numbe
 _FIRST_FILE: Final = {"name": "$response.body#/artifacts/0/name"}
 _FROM_IMAGE: Final = {"image_id": "$response.body#/id"}
 _SAME_IMAGE: Final = {"image_id": "$request.path.image_id"}
-_FROM_TOKEN: Final = {"token_id": "$response.body#/id"}
-_SAME_TOKEN: Final = {"token_id": "$request.path.token_id"}
 
 
 def _links(parameters: Mapping[str, str], *operations: str) -> dict[str, Any]:
@@ -70,6 +68,4 @@ LINKS: Final[Links] = {
     ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
     ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
     ("get_image", "200"): _links(_SAME_IMAGE, "erase_image"),
-    ("make_token", "201"): _links(_FROM_TOKEN, "get_token", "revoke_token"),
-    ("get_token", "200"): _links(_SAME_TOKEN, "revoke_token"),
 }

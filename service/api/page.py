@@ -12,14 +12,13 @@ from fastapi import APIRouter, Header, Request, Response
 from api_schemas.service import ServiceIndex
 from service.api.context import Parts
 from service.api.problems import not_found
-from service.api.security_headers import OWN_CAMERA, framed_by
+from service.api.security_headers import OWN_CAMERA, OWN_FILES
 
 ROUTER: Final = APIRouter(include_in_schema=False)
 
 LINKS: Final = {
     "fits": "/v1/fits",
     "scans": "/v1/scans",
-    "tokens": "/v1/tokens",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
     "points": "/v1/points",
@@ -50,9 +49,6 @@ _SAMPLES: Final = {
 }
 """Sample pictures for users without one of their own, their clicks, and good and bad pictures to
 learn from: the file for each name."""
-
-_FOR_OTHER_SITES: Final = frozenset({"embed.js", "embed.d.ts"})
-"""What sites that embed the page load into their own, under a name that stays."""
 
 _UNCHANGING: Final = "public, max-age=31536000, immutable"
 """Cache header of files whose names contain a hash of their content."""
@@ -88,8 +84,7 @@ def page(
             max_upload_bytes=parts.settings.max_upload_bytes,
         )
         return Response(index.model_dump_json(), media_type="application/json", headers=headers)
-    parts: Parts = request.app.state.parts
-    headers["Content-Security-Policy"] = framed_by(parts.settings.embedding_origins)
+    headers["Content-Security-Policy"] = OWN_FILES
     headers["Permissions-Policy"] = OWN_CAMERA
     return _answer(_page_files()["index.html"], accept_encoding, headers)
 
@@ -100,13 +95,10 @@ def page_file(name: str, accept_encoding: Annotated[str, Header()] = "") -> Resp
     found = _page_files().get(name)
     if found is None or name == "index.html":
         raise not_found(what="such file")
-    hashed = name.count(".") >= 2 and name not in _FOR_OTHER_SITES
     headers = {
-        "Cache-Control": _UNCHANGING if hashed else _FOR_A_DAY,
+        "Cache-Control": _UNCHANGING if name.count(".") >= 2 else _FOR_A_DAY,
         "Vary": "Accept-Encoding",
     }
-    if name in _FOR_OTHER_SITES:
-        headers["Cross-Origin-Resource-Policy"] = "cross-origin"
     return _answer(found, accept_encoding, headers)
 
 

@@ -22,9 +22,9 @@ _SAMPLES: Final = (
     ),
     problem(
         "forbidden",
-        code="not-for-tokens",
-        detail="A browser's token is for fits, scans and pictures of its own.",
-        remedy="Ask with the key, from a server.",
+        code="wrong-role",
+        detail="This key is for metrics only.",
+        remedy="Use a key made for this purpose.",
         field="Authorization",
     ),
     problem(

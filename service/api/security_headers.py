@@ -1,6 +1,6 @@
 """Headers that keep browsers from doing anything with a response that it is not meant for."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Final
 
 from starlette.datastructures import MutableHeaders
@@ -24,18 +24,6 @@ OWN_FILES: Final = (
 
 STATIC_SITE: Final = f"{OWN_FILES}; style-src-attr 'unsafe-inline'"
 """For pages of a generator that writes widths into their elements."""
-
-UNFRAMED: Final = "frame-ancestors 'none'"
-
-
-def framed_by(origins: Sequence[str]) -> str:
-    """The policy of our own page where sites of these origins may show it in a frame."""
-    return (
-        OWN_FILES.replace(UNFRAMED, f"frame-ancestors {' '.join(origins)}")
-        if origins
-        else OWN_FILES
-    )
-
 
 OWN_CAMERA: Final = (
     "accelerometer=(self), camera=(self), gyroscope=(self), geolocation=(), microphone=()"
@@ -84,9 +72,6 @@ class SecurityHeaders:
                     headers[name] = value
                 for name, value in self._unless_said.items():
                     headers.setdefault(name, value)
-                if UNFRAMED not in headers["Content-Security-Policy"]:
-                    # It knows no list of origins, and where both are sent browsers differ.
-                    del headers["X-Frame-Options"]
             await send(message)
 
         await self._app(scope, receive, completed)

@@ -13,7 +13,6 @@ from service.api.app import create_app
 from service.api.server import ApiServer
 from service.blobs import BlobStore, setting_of_storage
 from service.engine.ballast import Ballast
-from service.engine.browser_tokens import StoredBrowserTokens
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.image_port import ImageQuota
@@ -70,7 +69,6 @@ def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -
         ask=ask,
         keys=KeyRing(database),
         tokens=RateTokens(database, per_minute=settings.requests_per_minute),
-        browser_tokens=StoredBrowserTokens(database),
         draining=draining,
     )
     server = ApiServer(

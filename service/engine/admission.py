@@ -1,12 +1,10 @@
-"""Whether one more job of a tenant is accepted: room, a token's jobs, repeated requests."""
+"""Whether one more job of a tenant is accepted: room, and repeated requests."""
 
-import hashlib
 from dataclasses import dataclass
 
 import sqlalchemy as sa
 
 from api_schemas.jobs import JobState
-from service.engine.browser_tokens import has_jobs_left
 from service.engine.port import Idempotency, Submission, SubmitOutcome
 from service.engine.records import job_record
 from service.engine.tables import JOBS
@@ -14,13 +12,12 @@ from service.engine.tables import JOBS
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Admission:
-    """What a tenant, or a browser with one of its tokens, may have waiting.
+    """What a tenant may have waiting.
 
     Both limits count pictures: of everybody's waiting jobs, and of the tenant's.
     """
 
     tenant: str
-    token: str | None
     max_queued: int
     max_queued_per_tenant: int
 
@@ -44,7 +41,7 @@ class Admission:
             connection.execute(
                 sa.select(JOBS).where(
                     JOBS.c.tenant == self.tenant,
-                    JOBS.c.idempotency_key == self.stored_key(idempotency),
+                    JOBS.c.idempotency_key == idempotency.key,
                 )
             )
             .mappings()
@@ -57,15 +54,7 @@ class Admission:
             return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
         return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
 
-    def stored_key(self, idempotency: Idempotency) -> str:
-        """A token's keys are its own: else it could be answered with another's job."""
-        if self.token is None:
-            return idempotency.key
-        return hashlib.sha256(f"{self.token} {idempotency.key}".encode()).hexdigest()
-
     def _no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
-        if self.token is not None and not has_jobs_left(connection, self.token):
-            return SubmitOutcome.TOKEN_SPENT
         waiting = JOBS.c.state == JobState.QUEUED.value
         everyone, ours = connection.execute(
             sa.select(

@@ -92,14 +92,13 @@ class DbosJobEngine:
         self._client.destroy()
         self._database.dispose()
 
-    def of(self, tenant: str, root: str = FIT, *, token: str | None = None) -> DbosTenantJobs:
-        """Return the fits of a tenant, or its scans; with a token those made with it."""
+    def of(self, tenant: str, root: str = FIT) -> DbosTenantJobs:
+        """Return the fits of a tenant, or its scans."""
         return DbosTenantJobs(
             database=self._database,
             client=self._client,
             admission=Admission(
                 tenant=tenant,
-                token=token,
                 max_queued=self._max_queued,
                 max_queued_per_tenant=self._max_queued_per_tenant,
             ),
@@ -108,11 +107,10 @@ class DbosJobEngine:
             root=root,
         )
 
-    def images_of(self, tenant: str, *, token: str | None = None) -> StoredImages:
-        """Return the uploaded pictures of a tenant; with a token those uploaded with it."""
+    def images_of(self, tenant: str) -> StoredImages:
+        """Return the uploaded pictures of a tenant."""
         return StoredImages(
             tenant,
-            token=token,
             database=self._database,
             retention_s=self._retention_s,
             quota=self._image_quota,

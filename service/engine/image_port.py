@@ -23,12 +23,8 @@ class NewImage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageRecord(NewImage):
-    """A stored picture; times are seconds since the epoch.
+    """A stored picture; times are seconds since the epoch."""
 
-    ``token_id`` is the browser's token that it was uploaded with, None if it was a key.
-    """
-
-    token_id: str | None
     created_at: float
     expires_at: float
 
@@ -53,14 +49,8 @@ class ImageQuotaError(Exception):
     """There is no room for this picture besides the tenant's others; the message says how many."""
 
 
-class TokenQuotaError(ImageQuotaError):
-    """There is none besides those that were uploaded with the same browser's token."""
-
-
 class TenantImages(Protocol):
     """The uploaded pictures of one tenant; those of others can be neither seen nor touched.
-
-    With a browser's token these are those uploaded with it, else all of the tenant.
 
     Every method may raise :class:`service.engine.port.EngineUnavailableError`.
     """
@@ -93,18 +83,11 @@ class TenantImages(Protocol):
         """Keep a picture whose scope was reserved, or return the same one kept before.
 
         None if its scope was considered abandoned and has been erased meanwhile.
-
-        Raises
-        ------
-        TokenQuotaError
-            If others that were uploaded with the same token meanwhile have left no room.
         """
         ...
 
     def erase(self, image_id: str) -> Sequence[str]:
         """Forget the picture; returns its scopes, if any, which the caller should erase.
-
-        There are several where it was uploaded with a key and with tokens.
 
         If the caller does not get to it, the sweep will.
         """

@@ -14,7 +14,6 @@ from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
 from service.engine.ballast import Ballast
-from service.engine.browser_tokens import images_of_token
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.engine.image_port import (
     ImageQuota,
@@ -22,7 +21,6 @@ from service.engine.image_port import (
     ImageRecord,
     KeptImage,
     NewImage,
-    TokenQuotaError,
 )
 from service.engine.tables import IMAGES
 
@@ -34,14 +32,12 @@ class StoredImages:
         self,
         tenant: str,
         *,
-        token: str | None,
         database: sa.Engine,
         retention_s: float,
         quota: ImageQuota,
         ballast: Ballast,
     ) -> None:
         self._tenant = tenant
-        self._token = token or ""
         self._database = database
         self._retention_s = retention_s
         self._quota = quota
@@ -50,13 +46,7 @@ class StoredImages:
     @available
     def find(self, image_id: str) -> ImageRecord | None:
         """Return the picture, or None if there is none or it has expired."""
-        query = (
-            sa.select(IMAGES)
-            .where(IMAGES.c.id == image_id, *self._seen())
-            # With a key, its own before those of tokens.
-            .order_by(IMAGES.c.token_id)
-            .limit(1)
-        )
+        query = sa.select(IMAGES).where(IMAGES.c.id == image_id, *self._seen())
         with self._database.connect() as connection:
             row = connection.execute(query).mappings().one_or_none()
         return None if row is None else _record(row)
@@ -88,7 +78,6 @@ class StoredImages:
         """List the scope for erasure until the picture is kept."""
         with self._database.begin() as connection:
             self._check_room(connection, size)
-            self._check_room_of_token(connection)
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
@@ -119,16 +108,11 @@ class StoredImages:
             return _forget(connection, IMAGES.c.id == image_id, *self._seen())
 
     def _seen(self) -> tuple[sa.ColumnElement[bool], ...]:
-        """What the caller may know of: with a key also what was uploaded with tokens."""
-        seen = (IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time())
-        return (*seen, IMAGES.c.token_id == self._token) if self._token else seen
+        """What the tenant may know of."""
+        return (IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time())
 
     def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:
-        return (
-            IMAGES.c.id == image_id,
-            IMAGES.c.tenant == self._tenant,
-            IMAGES.c.token_id == self._token,
-        )
+        return (IMAGES.c.id == image_id, IMAGES.c.tenant == self._tenant)
 
     def _check_room(self, connection: sa.Connection, size: int) -> None:
         """Raise :class:`ImageQuotaError` unless one more picture of this size is within the quota.
@@ -147,15 +131,6 @@ class StoredImages:
             )
             raise ImageQuotaError(message)
 
-    def _check_room_of_token(self, connection: sa.Connection) -> None:
-        """Raise :class:`TokenQuotaError` unless one more picture may be kept with the token."""
-        if not self._token:
-            return
-        kept, most = images_of_token(connection, self._token)
-        if kept >= most:
-            message = f"{kept} pictures are kept for this token; at most {most} may be."
-            raise TokenQuotaError(message)
-
     def _renew(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
         now = time.time()
         row = (
@@ -173,15 +148,12 @@ class StoredImages:
     def _insert(self, connection: sa.Connection, image: NewImage) -> KeptImage | None:
         if not take_out(connection, image.scope):
             return None
-        # Once more, now that no other upload with the token can be between reading and writing.
-        self._check_room_of_token(connection)
         now = time.time()
         row = (
             connection.execute(
                 sa.insert(IMAGES)
                 .values(
                     tenant=self._tenant,
-                    token_id=self._token,
                     id=image.id,
                     scope=image.scope,
                     media_type=image.media_type,
@@ -213,7 +185,6 @@ def _forget(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> Sequen
 
 def _record(row: sa.RowMapping) -> ImageRecord:
     return ImageRecord(
-        token_id=row["token_id"] or None,
         id=row["id"],
         scope=row["scope"],
         media_type=row["media_type"],

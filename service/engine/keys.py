@@ -36,7 +36,7 @@ class Role(StrEnum):
 class ApiKey:
     """A stored key; times are seconds since the epoch.
 
-    ``used_at`` is when it was last used, itself or by a browser's token, to the minute; None if no
+    ``used_at`` is when it was last used, to the minute; None if no
     use is known.
     """
 

@@ -105,7 +105,6 @@ class JobRecord:
     request_id: str | None
     traceparent: str | None
     webhook: WebhookRecord | None
-    token: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +141,7 @@ class SubmitOutcome(StrEnum):
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
     considered abandoned and erased before it was submitted. ``PARENT_GONE``: the fit it is derived
-    from was erased meanwhile. ``TOKEN_SPENT``: the browser's token has no job left.
+    from was erased meanwhile.
     """
 
     ACCEPTED = "accepted"
@@ -152,7 +151,6 @@ class SubmitOutcome(StrEnum):
     TENANT_FULL = "tenant_full"
     LOST = "lost"
     PARENT_GONE = "parent_gone"
-    TOKEN_SPENT = "token_spent"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -273,12 +271,12 @@ class JobEngine(Protocol):
     Every method but those named ``of`` may raise :class:`EngineUnavailableError`.
     """
 
-    def of(self, tenant: str, root: str = FIT, *, token: str | None = None) -> TenantJobs:
-        """Return the fits of a tenant, or its scans; with a token only those made with it."""
+    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
+        """Return the fits of a tenant, or its scans."""
         ...
 
-    def images_of(self, tenant: str, *, token: str | None = None) -> TenantImages:
-        """Return the uploaded pictures of a tenant; with a token those uploaded with it."""
+    def images_of(self, tenant: str) -> TenantImages:
+        """Return the uploaded pictures of a tenant."""
         ...
 
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

@@ -66,7 +66,6 @@ def job_record(values: sa.RowMapping) -> JobRecord:
             last_error=values["webhook_error"],
             next_attempt_at=values["webhook_due_at"],
         ),
-        token=values["token_id"],
     )
 
 

@@ -11,7 +11,6 @@ from sqlalchemy.exc import OperationalError
 
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.ballast import Ballast
-from service.engine.browser_tokens import drop_expired_tokens
 from service.engine.expiry import (
     ClockGuard,
     drop_old_tombstones,
@@ -87,7 +86,6 @@ class Sweeper:
             expire_images(connection, now)
             drop_old_tombstones(connection, now)
             drop_full_buckets(connection)
-            drop_expired_tokens(connection, now)
 
     def _erase(self, scope: str) -> bool:
         try:

@@ -17,8 +17,7 @@ JOBS = sa.Table(
     sa.Column("parent_id", sa.String(36)),
     sa.Column("pictures", sa.Integer, nullable=False),
     sa.Column("label", LABEL),
-    sa.Column("token_id", sa.String(16)),
-    sa.Column("turn", sa.Integer),
+    sa.Column("turn", sa.Integer, nullable=False),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
     sa.Column("view", sa.Integer),
@@ -59,9 +58,8 @@ JOBS = sa.Table(
 and ``root`` is the kind of that one, or a job's own. ``inputs`` are blobs in the job's own scope,
 by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` is the digest of
 another, which holds whom to notify and the secret to sign with. It is not in the database, because
-databases keep what was deleted in dead rows, logs and backups. ``token_id`` names the browser's
-token that a job was made with, if it was; ``turn`` says when it is begun
-(:mod:`service.engine.turns`), None if a version without turns accepted it. ``claimed_by`` is the
+databases keep what was deleted in dead rows, logs and backups. ``turn`` says when
+it is begun (:mod:`service.engine.turns`). ``claimed_by`` is the
 worker that runs the job or is about to (:mod:`service.engine.claims`); ``worker_deaths`` counts
 those that died over it, and is None until one did."""
 
@@ -93,7 +91,6 @@ IMAGES = sa.Table(
     "maquette_images",
     METADATA,
     sa.Column("tenant", sa.String(64), primary_key=True),
-    sa.Column("token_id", sa.String(16), primary_key=True),
     sa.Column("id", sa.String(64), primary_key=True),
     sa.Column("scope", sa.String(64), nullable=False),
     sa.Column("media_type", sa.String(64), nullable=False),
@@ -106,7 +103,7 @@ IMAGES = sa.Table(
     sa.Index("maquette_images_expiry", "expires_at"),
 )
 """Pictures uploaded before any fit; ``id`` is the SHA-256 of the file, the blob's name in its
-scope. ``token_id`` names the browser's token it was uploaded with, and is empty for a key."""
+scope."""
 
 TOMBSTONES = sa.Table(
     "maquette_tombstones",
@@ -138,22 +135,6 @@ KEY_USES = sa.Table(
     sa.Column("used_at", sa.Double, nullable=False),
 )
 """When keys were last used, to the minute; apart from the keys, whose table is that of 1.0."""
-
-BROWSER_TOKENS = sa.Table(
-    "maquette_browser_tokens",
-    METADATA,
-    sa.Column("id", sa.String(16), primary_key=True),
-    sa.Column("key_id", sa.String(16), nullable=False),
-    sa.Column("tenant", sa.String(64), nullable=False),
-    sa.Column("label", LABEL),
-    sa.Column("secret_hash", sa.String(64), nullable=False, unique=True),
-    sa.Column("created_at", sa.Double, nullable=False),
-    sa.Column("expires_at", sa.Double, nullable=False),
-    sa.Column("jobs", sa.Integer, nullable=False),
-    sa.Column("jobs_left", sa.Integer, nullable=False),
-    sa.Index("maquette_browser_tokens_expiry", "expires_at"),
-)
-"""What browsers use in place of the key ``key_id``, for minutes."""
 
 RATE_TOKENS = sa.Table(
     "maquette_rate_tokens",

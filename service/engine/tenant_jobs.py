@@ -14,7 +14,6 @@ from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from service.engine.admission import Admission
 from service.engine.availability import available
 from service.engine.ballast import Ballast
-from service.engine.browser_tokens import take_job
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
     enter_erasures,
@@ -55,7 +54,6 @@ class DbosTenantJobs:
         parent: str | None = None,
     ) -> None:
         self._tenant = admission.tenant
-        self._token = admission.token
         self._root = root
         self._parent = parent
         self._database = database
@@ -105,10 +103,7 @@ class DbosTenantJobs:
                     return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
                     return Submission(outcome=SubmitOutcome.LOST, job=None)
-                if self._token is not None and not take_job(connection, self._token):
-                    # Another request got the last one; the blobs are erased by the caller.
-                    return Submission(outcome=SubmitOutcome.TOKEN_SPENT, job=None)
-                turn = turn_of_next_job(connection, tenant=self._tenant, token=self._token)
+                turn = turn_of_next_job(connection, tenant=self._tenant)
                 record = self._insert(connection, job, turn=turn, expires_at=expires_at)
                 return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
         except IntegrityError:
@@ -244,11 +239,7 @@ class DbosTenantJobs:
             JOBS.c.tenant == self._tenant,
             JOBS.c.root == self._root,
             JOBS.c.parent_id == self._parent,
-            *self._made_with_token(),
         )
-
-    def _made_with_token(self) -> tuple[sa.ColumnElement[bool], ...]:
-        return () if self._token is None else (JOBS.c.token_id == self._token,)
 
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
@@ -269,7 +260,6 @@ class DbosTenantJobs:
                 JOBS.c.root == self._root,
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
-                *self._made_with_token(),
             )
             .with_for_update()
         ).scalar_one_or_none()
@@ -281,9 +271,6 @@ class DbosTenantJobs:
             if record.expires_at is not None and record.expires_at <= time.time():
                 raise JobExpiredError(record.expires_at)
             return record
-        if self._token is not None:
-            # Of a job that is gone nothing says who made it; and tokens do not live that long.
-            return None
         expired_at = connection.execute(
             sa.select(TOMBSTONES.c.expired_at).where(
                 TOMBSTONES.c.id == job_id,
@@ -311,7 +298,6 @@ class DbosTenantJobs:
                     parent_id=self._parent,
                     pictures=job.pictures,
                     label=job.label,
-                    token_id=self._token,
                     turn=turn,
                     state=JobState.QUEUED.value,
                     progress=0.0,
@@ -323,7 +309,7 @@ class DbosTenantJobs:
                     options_digest=job.options.digest,
                     inputs=INPUTS.dump_json(dict(job.inputs)).decode(),
                     artifacts="[]",
-                    idempotency_key=None if again is None else self._admission.stored_key(again),
+                    idempotency_key=None if again is None else again.key,
                     fingerprint=None if again is None else again.fingerprint,
                     request_id=job.request_id,
                     traceparent=job.traceparent,

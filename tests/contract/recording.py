@@ -12,7 +12,6 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 import httpx
 from PIL import Image
@@ -108,7 +107,6 @@ def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dic
     )
     _estimates(recorder, image, points, person)
     _whole_service(recorder, metrics_key)
-    _tokens(recorder, fit, sample.image)
     return {
         "requests": dict(sorted(recorder.requests.items())),
         "answers": dict(sorted(recorder.answers.items())),
@@ -234,18 +232,6 @@ def _whole_service(recorder: Recorder, metrics_key: str) -> None:
     figures["some"] = "".join(
         f"{line}\n" for line in figures["some"].splitlines() if any(each in line for each in shown)
     )
-
-
-def _tokens(recorder: Recorder, fit: Mapping[str, Any], picture: bytes) -> None:
-    asked = {"jobs": 2, "label": "customer-4711"}
-    made = recorder.ask(
-        "for-one-customer", "POST", "/v1/tokens", asked_as="for-one-customer", json=asked
-    ).json()
-    browser: dict[str, Any] = {"headers": {"Authorization": f"Bearer {made['token']}"}}
-    recorder.ask("", "POST", "/v1/images", files={"image": ("picture.jpg", picture)}, **browser)
-    recorder.ask("", "POST", "/v1/fits", json=fit, **browser)
-    recorder.ask("one-job-left", "GET", f"/v1/tokens/{quote(made['id'])}")
-    recorder.ask("only-page", "GET", "/v1/tokens")
 
 
 def recorded_from_service(folder: Path) -> dict[str, Any]:

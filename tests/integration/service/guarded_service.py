@@ -1,20 +1,17 @@
-"""A service that asks for keys, and whoever calls it with a key or a token."""
+"""A service that asks for keys, and whoever calls it with one."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from typing import Any
 
 import httpx
 import pytest
 import sqlalchemy as sa
 
-from api_schemas.tokens import NewToken
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.harness import (
-    REQUEST,
     Machine,
     Service,
     eventually,
@@ -32,7 +29,7 @@ class Guarded:
     clients: ExitStack
 
     def caller(self, secret: str) -> Service:
-        """The service as somebody with this key or token sees it."""
+        """The service as somebody with this key sees it."""
         client = httpx.Client(
             base_url=self.service.client.base_url,
             headers={"Authorization": f"Bearer {secret}"},
@@ -69,16 +66,3 @@ def opened(machine: Machine) -> Iterator[sa.Engine]:
     database = open_database(url)
     yield database
     database.dispose()
-
-
-def made(holder: Service, **asked: Any) -> NewToken:
-    answer = holder.client.post("/v1/tokens", json=asked)
-    assert answer.status_code == 201, answer.text
-    assert answer.headers["cache-control"] == "no-store"
-    return NewToken.model_validate_json(answer.content)
-
-
-def fit(caller: Service, **asked: Any) -> str:
-    answer = caller.post(request=REQUEST | asked)
-    assert answer.status_code == 202, answer.text
-    return answer.headers["Location"]

@@ -1,4 +1,4 @@
-"""The order in which workers begin the jobs of several tenants and tokens, on both databases."""
+"""The order in which workers begin the jobs of several tenants, on both databases."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -9,7 +9,7 @@ import sqlalchemy as sa
 
 from service.engine.keys import KeyRing
 from service.engine.tables import JOBS
-from tests.integration.service.guarded_service import Guarded, made, opened
+from tests.integration.service.guarded_service import Guarded, opened
 from tests.integration.service.harness import (
     Machine,
     Service,
@@ -47,25 +47,20 @@ def queue_up(
     return paths
 
 
-def test_tenants_and_tokens_take_turns_and_each_is_served_in_its_order(
-    guarded: Guarded, tmp_path: Path
-):
+def test_tenants_take_turns_and_each_is_served_in_its_order(guarded: Guarded, tmp_path: Path):
     gate, names = tmp_path / "gate", dict[str, str]()
     alice, bob = (guarded.caller(guarded.key(tenant)) for tenant in ("alice", "bob"))
-    visitor = guarded.caller(made(alice, jobs=5).token)
     paths = queue_up(alice, "alice", 5, gate, names)
     eventually(lambda: alice.state(paths[0]) == "running", what="the first job runs")
     paths += queue_up(bob, "bob", 2, gate, names)
-    visits = queue_up(visitor, "visitor", 1, gate, names)
     gate.touch()
     for path in paths[:5]:
         assert alice.ended(path)["state"] == "succeeded"
     for path in paths[5:]:
         assert bob.ended(path)["state"] == "succeeded"
-    assert visitor.ended(visits[0])["state"] == "succeeded"
     assert begun(guarded, names) == [
         *("alice 0", "bob 0"),
-        *("alice 1", "bob 1", "visitor 0"),
+        *("alice 1", "bob 1"),
         *("alice 2", "alice 3", "alice 4"),
     ]
 

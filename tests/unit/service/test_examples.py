@@ -33,7 +33,6 @@ from api_schemas.scans import (
     ScanResult,
 )
 from api_schemas.service import Live, Ready
-from api_schemas.tokens import NewToken, Token, TokenPage, TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.openapi import recorded_examples
 
@@ -60,9 +59,6 @@ KINDS = {
     "submit_scan": Scan,
     "retry_scan": Scan,
     "list_scans": ScanPage,
-    "make_token": NewToken,
-    "list_tokens": TokenPage,
-    "get_token": Token,
     "get_scan": Scan,
     "cancel_scan": Scan,
     "get_scan_request": ScanOptions,
@@ -116,7 +112,6 @@ def test_examples_of_answers_are_of_their_types(operation):
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),
         ("check_capture", CheckOfImage),
-        ("make_token", TokenRequest),
     ],
 )
 def test_examples_of_requests_are_of_their_types(operation, kind):

@@ -13,7 +13,7 @@ from tests.contract.request_table import PAGE, parts, request_table
 from tests.readme import block
 
 DOCS = REPOSITORY / "service" / "docs"
-GUIDE = [*sorted((DOCS / "guide").glob("*.md")), DOCS / "start.md", *DOCS.glob("embedding*.md")]
+GUIDE = [*sorted((DOCS / "guide").glob("*.md")), DOCS / "start.md"]
 MOST_WORDS = 800
 
 OF_FILES = re.compile(r"(image|mask)-(animated|damaged|empty|too-[a-z]+|unsupported)")

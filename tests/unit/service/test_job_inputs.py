@@ -68,7 +68,6 @@ def context_of(blobs: WatchedBlobs) -> ApiContext:
             disk=Disk(None, reserve_bytes=1),
             copying=copying,
             request_id=None,
-            token=None,
         ),
     )
 

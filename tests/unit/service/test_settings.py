@@ -69,31 +69,6 @@ def test_origins_are_read_as_a_list_and_a_page_is_no_origin():
         Settings(cors_origins="*")
 
 
-@pytest.mark.parametrize(
-    "origin",
-    [
-        "*",
-        "https:",
-        "'self'",
-        "https://*.example",
-        "https://a.example/",
-        "https://a.example; script-src *",
-        "https://user@a.example",
-        "https://a.example https://b.example",
-    ],
-)
-def test_who_may_frame_the_page_is_a_list_of_single_origins(origin: str):
-    assert Settings().embedding_origins == ()
-    settings = Settings(embed_origins="https://a.example, http://localhost:5173,http://[::1]:80")
-    assert settings.embedding_origins == (
-        "https://a.example",
-        "http://localhost:5173",
-        "http://[::1]:80",
-    )
-    with pytest.raises(ValidationError, match="write"):
-        Settings(embed_origins=origin)
-
-
 @pytest.mark.parametrize("ports", ["", "http", "0", "443,70000", "443;80"])
 def test_ports_of_receivers_are_ports(ports: str):
     assert Settings().allowed_webhook_ports == (443, 80)

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from service.engine.turns import QueueSight, next_turn
 
-ALICE, BOB = ("alice", ""), ("bob", "")
-Owner = tuple[str, str]
+ALICE, BOB, CAROL = "alice", "bob", "carol"
 
 
 @dataclass
@@ -18,25 +17,23 @@ class Played:
     """A queue as DBOS keeps it: lowest turn first, then first in first out."""
 
     slots: int = 1
-    waiting: list[tuple[int, int, Owner]] = field(default_factory=list)
-    running: list[tuple[int, int, Owner]] = field(default_factory=list)
-    begun: list[tuple[Owner, int]] = field(default_factory=list)
+    waiting: list[tuple[int, int, str]] = field(default_factory=list)
+    running: list[tuple[int, int, str]] = field(default_factory=list)
+    begun: list[tuple[str, int]] = field(default_factory=list)
     accepted: int = 0
 
-    def submit(self, owner: Owner, *, jobs: int = 1) -> None:
+    def submit(self, tenant: str, *, jobs: int = 1) -> None:
         for _ in range(jobs):
-            turns = [turn for turn, _, each in (*self.waiting, *self.running) if each == owner]
-            others = {each for _, _, each in self.waiting if each[0] == owner[0] and each != owner}
+            turns = [turn for turn, _, each in (*self.waiting, *self.running) if each == tenant]
             turn = next_turn(
                 QueueSight(
                     begun=max((turn for turn, _, _ in self.running), default=None),
                     waiting=min((turn for turn, _, _ in self.waiting), default=None),
                     own=max(turns, default=None),
-                    others=len(others),
                 )
             )
             self.accepted += 1
-            self.waiting.append((turn, self.accepted, owner))
+            self.waiting.append((turn, self.accepted, tenant))
 
     def begin(self) -> None:
         """Fill the slots."""
@@ -51,13 +48,13 @@ class Played:
         self.running.pop(0)
         self.begin()
 
-    def run_out(self) -> list[Owner]:
+    def run_out(self) -> list[str]:
         """Who is begun from now on, until nothing waits."""
         before = len(self.begun)
         self.begin()
         while self.running:
             self.end_one()
-        return [owner for owner, _ in self.begun[before:]]
+        return [tenant for tenant, _ in self.begun[before:]]
 
 
 def test_a_single_job_is_begun_before_all_that_another_tenant_has_waiting():
@@ -87,46 +84,28 @@ def test_who_sends_the_next_job_after_the_end_of_the_last_gets_every_other_turn(
         assert queue.begun[-1][0] == ALICE
 
 
-def test_a_browser_is_not_kept_waiting_by_what_the_tenant_itself_has_waiting():
-    queue = Played()
-    queue.submit(ALICE, jobs=60)
-    queue.begin()
-    queue.submit(("alice", "token"))
-    assert ("alice", "token") in queue.run_out()[:2]
-
-
-def test_a_tenant_gets_no_more_turns_by_having_more_tokens():
-    queue = Played()
-    for number in range(60):
-        queue.submit(("alice", f"token {number}"))
-    queue.submit(BOB, jobs=10)
-    tenants = [tenant for tenant, _ in queue.run_out()]
-    assert tenants[:20] == ["alice", "bob"] * 10
-
-
 def test_who_comes_while_nothing_runs_waits_for_nothing_that_came_later():
     queue = Played()
     queue.submit(ALICE)
     queue.submit(BOB)
-    queue.submit(("carol", ""))
-    assert queue.run_out() == [ALICE, BOB, ("carol", "")]
+    queue.submit(CAROL)
+    assert queue.run_out() == [ALICE, BOB, CAROL]
 
 
-def test_a_queue_of_an_earlier_version_has_no_turns_and_does_not_count():
-    assert next_turn(QueueSight(begun=None, waiting=None, own=None, others=0)) == 1
+def test_the_first_job_has_the_first_turn():
+    assert next_turn(QueueSight(begun=None, waiting=None, own=None)) == 1
 
 
-OWNERS = st.sampled_from([(tenant, token) for tenant in "abc" for token in ("", "x", "y")])
-STEPS = st.lists(st.one_of(OWNERS, st.none()), max_size=120)
+STEPS = st.lists(st.one_of(st.sampled_from("abcde"), st.none()), max_size=120)
 """Somebody submits a job, or, where it is None, a running one ends."""
 
 
-def played(steps: Iterable[Owner | None], slots: int) -> Iterator[Played]:
+def played(steps: Iterable[str | None], slots: int) -> Iterator[Played]:
     """The queue after each step."""
     queue = Played(slots=slots)
-    for owner in steps:
-        if owner is not None:
-            queue.submit(owner)
+    for tenant in steps:
+        if tenant is not None:
+            queue.submit(tenant)
             queue.begin()
         elif queue.running:
             queue.end_one()
@@ -134,35 +113,34 @@ def played(steps: Iterable[Owner | None], slots: int) -> Iterator[Played]:
 
 
 @given(STEPS, st.integers(1, 4))
-def test_the_jobs_of_an_owner_are_begun_in_the_order_they_came_in(
-    steps: list[Owner | None], slots: int
+def test_the_jobs_of_a_tenant_are_begun_in_the_order_they_came_in(
+    steps: list[str | None], slots: int
 ):
     *_, queue = Played(slots=slots), *played(steps, slots)
     queue.run_out()
-    orders: dict[Owner, list[int]] = {}
-    for owner, number in queue.begun:
-        orders.setdefault(owner, []).append(number)
+    orders: dict[str, list[int]] = {}
+    for tenant, number in queue.begun:
+        orders.setdefault(tenant, []).append(number)
     assert all(order == sorted(order) for order in orders.values())
     assert len(queue.begun) == queue.accepted
 
 
 @given(STEPS, st.integers(1, 4))
-def test_nobody_is_overtaken_more_than_once_by_each_owner_who_comes_later(
-    steps: list[Owner | None], slots: int
+def test_nobody_is_overtaken_more_than_once_by_each_tenant_that_comes_later(
+    steps: list[str | None], slots: int
 ):
-    tenants_only = [None if step is None else (step[0], "") for step in steps]
-    overtaken: dict[int, Counter[Owner]] = {}
+    overtaken: dict[int, Counter[str]] = {}
     seen = 0
-    for queue in played(tenants_only, slots):
-        for owner, number in queue.begun[seen:]:
+    for queue in played(steps, slots):
+        for tenant, number in queue.begun[seen:]:
             for _, older, _ in (job for job in queue.waiting if job[1] < number):
-                overtaken.setdefault(older, Counter())[owner] += 1
+                overtaken.setdefault(older, Counter())[tenant] += 1
         seen = len(queue.begun)
-    # An owner's first job in the queue: nobody may get ahead of it again and again.
-    first = {number for number in overtaken if _was_first(tenants_only, number)}
+    # A tenant's first job in the queue: nobody may get ahead of it again and again.
+    first = {number for number in overtaken if _was_first(steps, number)}
     assert all(count <= 1 for number in first for count in overtaken[number].values())
 
 
-def _was_first(steps: list[Owner | None], number: int) -> bool:
+def _was_first(steps: list[str | None], number: int) -> bool:
     submitted = [step for step in steps if step is not None]
     return submitted[number - 1] not in submitted[: number - 1]
