@@ -153,10 +153,7 @@ class Settings(BaseSettings):
         default=1_200,
         ge=1,
         le=1_000_000,
-        description=(
-            "Requests of one API key a minute, at all API processes together, before it is refused "
-            "(429)."
-        ),
+        description="Requests of one API key a minute at one API process before it is refused (429).",
     )
     max_connections: int = Field(
         default=800,

@@ -4,7 +4,7 @@ import asyncio
 import json
 import threading
 from collections.abc import AsyncIterator, Callable
-from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
+from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from typing import Any, Final
 
 from anyio import CapacityLimiter
@@ -47,7 +47,6 @@ from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
 from service.engine.keys import KeyRing
 from service.engine.port import JobEngine
-from service.engine.token_port import SharedTokens
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk
 from service.settings import Settings
@@ -104,7 +103,6 @@ def create_app(
     disk: Disk,
     ask: Ask,
     keys: KeyRing,
-    tokens: SharedTokens,
     draining: threading.Event,
 ) -> FastAPI:
     """Build the application from what outlives it: engine, blobs, disk, keys and so on.
@@ -113,20 +111,14 @@ def create_app(
     stop: it is then no longer ready, and event streams end.
     """
     feed = EventFeed(engine, draining)
-    rate_limit = None
-    if settings.authentication == "keys":
-        rate_limit = RateLimit(tokens, per_minute=settings.requests_per_minute)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        async with AsyncExitStack() as stack:
-            if rate_limit is not None:
-                await stack.enter_async_context(rate_limit.giving_back())
-            following = asyncio.create_task(feed.run())
-            yield
-            following.cancel()
-            with suppress(asyncio.CancelledError):
-                await following
+        following = asyncio.create_task(feed.run())
+        yield
+        following.cancel()
+        with suppress(asyncio.CancelledError):
+            await following
 
     app = _resources(lifespan)
     metrics = ServiceMetrics(engine, disk)
@@ -146,7 +138,6 @@ def create_app(
         app,
         settings=settings,
         keys=keys,
-        rate_limit=rate_limit,
         metrics=metrics,
     )
     return app
@@ -157,7 +148,6 @@ def _surround(
     *,
     settings: Settings,
     keys: KeyRing,
-    rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
 ) -> None:
     """Put the layers around the resources, innermost first."""
@@ -167,7 +157,7 @@ def _surround(
         Authentication,
         keys=KnownKeys(keys) if needs_keys else None,
         uses=KeyUses(keys),
-        rate_limit=rate_limit,
+        rate_limit=RateLimit(per_minute=settings.requests_per_minute) if needs_keys else None,
     )
     if settings.allowed_origins:
         # Outside of authentication: browsers send CORS preflight requests without a key.

@@ -80,7 +80,7 @@ class Authentication:
         if caller.key_id is not None:
             self._uses.note(caller.key_id)
         if self._rate_limit is not None and caller.key_id is not None:
-            retry_after_s = await self._rate_limit.take(caller.key_id)
+            retry_after_s = self._rate_limit.take(caller.key_id)
             if retry_after_s:
                 raise _too_many(retry_after_s)
         return caller

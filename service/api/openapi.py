@@ -308,7 +308,6 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             FitRequest,
             FitOfImage,
             BodyRequest,
-            TokenRequest,
             InitialPoseRequest,
             PointsRequest,
             PointsOfImage,

@@ -17,7 +17,6 @@ from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.image_port import ImageQuota
 from service.engine.keys import KeyRing
-from service.engine.rate_tokens import RateTokens
 from service.engine.storage_identity import take_storage
 from service.engine.webhooks import WebhookLedger
 from service.numerics.quick_lane import Ask
@@ -68,7 +67,6 @@ def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -
         disk=open_disk(settings),
         ask=ask,
         keys=KeyRing(database),
-        tokens=RateTokens(database, per_minute=settings.requests_per_minute),
         draining=draining,
     )
     server = ApiServer(

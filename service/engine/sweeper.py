@@ -21,7 +21,6 @@ from service.engine.expiry import (
     postpone,
     take_out,
 )
-from service.engine.rate_tokens import drop_full_buckets
 from service.engine.transactions import read_then_write
 
 LOG: Final = logging.getLogger(__name__)
@@ -85,7 +84,6 @@ class Sweeper:
         with self._database.begin() as connection:
             expire_images(connection, now)
             drop_old_tombstones(connection, now)
-            drop_full_buckets(connection)
 
     def _erase(self, scope: str) -> bool:
         try:

@@ -136,18 +136,6 @@ KEY_USES = sa.Table(
 )
 """When keys were last used, to the minute; apart from the keys, whose table is that of 1.0."""
 
-RATE_TOKENS = sa.Table(
-    "maquette_rate_tokens",
-    METADATA,
-    sa.Column("key_id", sa.String(16), primary_key=True),
-    sa.Column("tokens", sa.Double, nullable=False),
-    sa.Column("granted", sa.Integer, nullable=False),
-    sa.Column("filled_at", sa.Double, nullable=False),
-)
-"""How many requests an API key has left: ``tokens`` as of ``filled_at``, by the database's clock.
-``granted`` is what was taken last: a statement can return only what it leaves behind. There is one
-row per key, so there is no index by age, which every exchange would have to update."""
-
 OUTCOMES = sa.Table(
     "maquette_outcomes",
     METADATA,
