@@ -118,7 +118,7 @@ release: $(STAMP)
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --generate-hashes --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev --extra s3 --extra tracing --extra detector --extra heic -o requirements.lock pyproject.toml
+		--strip-extras --extra dev --extra s3 --extra detector --extra heic -o requirements.lock pyproject.toml
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
 		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 

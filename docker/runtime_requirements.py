@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
-EXTRAS: Final = ("s3", "tracing", "detector", "heic")
+EXTRAS: Final = ("s3", "detector", "heic")
 
 PINNED: Final = re.compile(r"^(?P<name>[\w.-]+)==")
 WANTED_BY: Final = re.compile(r"^    #(?: via)?\s+(?P<name>[\w.-]+)")

@@ -153,7 +153,7 @@ class Settings(BaseSettings):
         default=1_200,
         ge=1,
         le=1_000_000,
-        description="Requests of one API key a minute at one API process before it is refused (429).",
+        description="Requests of one API key a minute before one API process refuses more (429).",
     )
     max_connections: int = Field(
         default=800,
@@ -257,15 +257,6 @@ class Settings(BaseSettings):
         le=1_048_576,
         description="Address space of the process that makes one fit.",
     )
-    child_jobs: int = Field(
-        default=50,
-        ge=1,
-        le=1_000,
-        description=(
-            "How many jobs of one owner (an API key's tenant, or a browser token), if they follow "
-            "at once, a process may make one after the other; with 1 each has a process of its own."
-        ),
-    )
     drain_s: float = Field(
         default=20.0,
         ge=0.0,
@@ -325,13 +316,6 @@ class Settings(BaseSettings):
     )
     log_format: Literal["text", "json"] = Field(
         default="text", description="`json` for one object a line, `text` for people."
-    )
-    traces_endpoint: WebAddress | None = Field(
-        default=None,
-        description=(
-            "Address of an OTLP/HTTP collector (`http://host:4318`) to send traces to; none are "
-            "made if unset."
-        ),
     )
 
     @field_validator("authentication")
@@ -413,11 +397,6 @@ class Settings(BaseSettings):
     def blob_dir(self) -> Path:
         """The folder of pictures and results."""
         return self.data_dir.resolve() / "blobs"
-
-    @property
-    def ballast_file(self) -> Path:
-        """What is given up when erasing needs room on a full disk."""
-        return self.data_dir.resolve() / "ballast"
 
     def environment(self) -> dict[str, str]:
         """Write these settings as the environment of another process that is to share them."""

@@ -27,7 +27,6 @@ from service.engine.port import (
     TenantJobs,
 )
 from service.jobs.states import ACTIVE
-from service.process.tracing import current_traceparent
 from service.representation.jobs import POLL_AFTER_S, job_path
 
 MAX_WAIT_S: Final = 60
@@ -164,7 +163,6 @@ def _store(
         label=inputs.label,
         idempotency=key,
         request_id=context.request_id,
-        traceparent=current_traceparent(),
         webhook=stored.webhook,
     )
     # If the database goes away before it answers, it may have accepted the job: the blobs stay.

@@ -1,4 +1,4 @@
-"""Observability of requests: an id, a log line, metrics and a span for each."""
+"""Observability of requests: an id, a log line and metrics for each."""
 
 import logging
 import re
@@ -6,7 +6,6 @@ import time
 import uuid
 from typing import Final
 
-from opentelemetry.trace import SpanKind
 from starlette.datastructures import MutableHeaders
 from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -15,7 +14,6 @@ from api_schemas.problems import problem
 from service.api.metrics import ServiceMetrics
 from service.api.problems import problem_response
 from service.process.logs import fields, log_context
-from service.process.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -41,22 +39,11 @@ class Observation:
         given = request.headers.get(HEADER, "")
         request_id = given if WELL_FORMED.fullmatch(given) else uuid.uuid4().hex
         request.state.request_id = request_id
-        with (
-            log_context(request=request_id),
-            span(
-                request.method,
-                parent=request.headers.get("traceparent"),
-                kind=SpanKind.SERVER,
-                attributes={"http.request.method": request.method, "maquette.request": request_id},
-            ) as current,
-        ):
+        with log_context(request=request_id):
             started = time.monotonic()
             status = await self._answer(request, request_id, receive, send)
             seconds = time.monotonic() - started
             route = _route(scope)
-            current.update_name(f"{request.method} {route}")
-            current.set_attribute("http.route", route)
-            current.set_attribute("http.response.status_code", status)
             self._metrics.count(method=request.method, route=route, status=status, seconds=seconds)
             LOG.log(
                 logging.DEBUG if request.url.path.startswith(QUIET) else logging.INFO,

@@ -12,7 +12,6 @@ import sqlalchemy as sa
 from service.api.app import create_app
 from service.api.server import ApiServer
 from service.blobs import BlobStore, setting_of_storage
-from service.engine.ballast import Ballast
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.image_port import ImageQuota
@@ -50,14 +49,13 @@ class ApiProcess:
         self.engine.close()
 
 
-def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -> ApiProcess:
+def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
     """Prepare the database, and build all parts."""
     url = settings.system_database_url
     prepare_database(url)
     take_storage(url, blobs, named=setting_of_storage(settings))
-    ballast.fill()
     database = open_database(url)
-    engine = _engine(settings, database, blobs, ballast)
+    engine = _engine(settings, database, blobs)
     webhooks = _webhooks(settings, database, blobs)
     draining = threading.Event()
     app = create_app(
@@ -78,9 +76,7 @@ def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -
     return ApiProcess(engine=engine, webhooks=webhooks, server=server)
 
 
-def _engine(
-    settings: Settings, database: sa.Engine, blobs: BlobStore, ballast: Ballast
-) -> DbosJobEngine:
+def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> DbosJobEngine:
     return DbosJobEngine(
         database,
         blobs,
@@ -93,7 +89,6 @@ def _engine(
         sweep_interval_s=settings.sweep_interval_s,
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
-        ballast=ballast,
     )
 
 

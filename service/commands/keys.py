@@ -3,7 +3,6 @@
 import sys
 from datetime import UTC, datetime
 
-from service.engine.ballast import open_ballast
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing, Role
 from service.process.data_folder import prepare_data_folder
@@ -43,7 +42,6 @@ def revoke_key(settings: Settings, *, identity: str) -> int:
 def _open(settings: Settings) -> KeyRing:
     prepare_data_folder(settings)
     # It must be possible to revoke a key on a full disk too.
-    open_ballast(settings).make_room()
     prepare_database(settings.system_database_url)
     return KeyRing(open_database(settings.system_database_url, connections=1))
 

@@ -10,10 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 from service.commands.prepare import run_preflight
-from service.engine.ballast import open_ballast
 from service.numerics.quick_lane import SOCKET, asking
 from service.process.supervisor import PYTHON, SupervisedProcess
-from service.process.tracing import start_tracing
 from service.process.work_folder import make_work_folder
 from service.settings import PREFIX, SettingError, Settings
 from service.startup.begin import UNUSABLE_SETTINGS
@@ -73,10 +71,7 @@ def serve(
     beside: SupervisedProcess | None = None
     _on_signals(lambda: sys.exit(_status(beside)))
     # All faults of the settings come to light before anything with the same settings is started.
-    ballast = open_ballast(settings)
-    ballast.make_room()
     blobs = run_preflight(settings)
-    tracing = start_tracing(settings, role="api")
     environment = _environment(settings)
     # Of this process alone: what children of the worker may write to is the worker's.
     address = str(make_work_folder() / SOCKET)
@@ -86,7 +81,7 @@ def serve(
         beside = _start_estimators(settings, [*estimators_command, address], environment)
     from service.commands.api_process import assemble
 
-    process = assemble(settings, blobs, ballast, asking(address))
+    process = assemble(settings, blobs, asking(address))
     # The server handles signals while it runs, and raises them again when it is done: they must
     # not end this process before the worker is stopped.
     _on_signals(process.ask_to_stop)
@@ -97,7 +92,6 @@ def serve(
     finally:
         beside.stop()
         process.close()
-        tracing.stop()
     return _status(beside)
 
 

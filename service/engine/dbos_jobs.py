@@ -14,7 +14,6 @@ from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
 from service.engine.admission import Admission
 from service.engine.availability import available
-from service.engine.ballast import Ballast
 from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
@@ -55,7 +54,6 @@ class DbosJobEngine:
         sweep_interval_s: float,
         heartbeat_s: float,
         dead_after_s: float,
-        ballast: Ballast,
     ) -> None:
         self._database = database
         self._max_queued = max_queued
@@ -63,7 +61,6 @@ class DbosJobEngine:
         self._image_quota = image_quota
         self._retention_s = retention_s
         self._heartbeat_s = heartbeat_s
-        self._ballast = ballast
         self._client = DBOSClient(
             system_database_engine=database,
             serializer=DBOSPortableJSONSerializer(),
@@ -72,9 +69,7 @@ class DbosJobEngine:
             retry_connection_errors=False,
         )
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
-        self._sweeper = Sweeper(
-            database, self._client, blobs, interval_s=sweep_interval_s, ballast=ballast
-        )
+        self._sweeper = Sweeper(database, self._client, blobs, interval_s=sweep_interval_s)
         self._stopped = threading.Event()
         self._watching = threading.Thread(target=self._watch_workers, name="watch", daemon=True)
 
@@ -103,7 +98,6 @@ class DbosJobEngine:
                 max_queued_per_tenant=self._max_queued_per_tenant,
             ),
             retention_s=self._retention_s,
-            ballast=self._ballast,
             root=root,
         )
 
@@ -114,7 +108,6 @@ class DbosJobEngine:
             database=self._database,
             retention_s=self._retention_s,
             quota=self._image_quota,
-            ballast=self._ballast,
         )
 
     @available

@@ -16,7 +16,6 @@ from typing import Final
 
 import sqlalchemy as sa
 from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
-from opentelemetry.trace import SpanKind
 
 from api_schemas.body_models import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
@@ -32,7 +31,6 @@ from service.engine.retrying import ABSENCES
 from service.engine.worker_slots import WorkerSlots
 from service.process.data_folder import Disk
 from service.process.logs import fields, log_context
-from service.process.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -221,20 +219,11 @@ class DbosWorkerEngine:
     def _run(self, job_id: str, handler: AttemptHandler) -> str | None:
         while (attempt := self._attempts.begin(job_id)) is not None:
             started = time.monotonic()
-            with (
-                log_context(
-                    job=job_id, attempt=str(attempt.job.attempt), request=attempt.job.request_id
-                ),
-                span(
-                    attempt.job.kind,
-                    parent=attempt.job.traceparent,
-                    kind=SpanKind.CONSUMER,
-                    attributes={"maquette.job": job_id, "maquette.attempt": attempt.job.attempt},
-                ) as current,
+            with log_context(
+                job=job_id, attempt=str(attempt.job.attempt), request=attempt.job.request_id
             ):
                 LOG.info("The %s begins.", attempt.job.kind)
                 result = handler(attempt)
-                current.set_attribute("maquette.ending", result.ending.value)
                 LOG.info(
                     "The %s ended.",
                     attempt.job.kind,

@@ -28,7 +28,7 @@ scope is erased once more after this time."""
 TOMBSTONES_KEPT_S: Final = 90 * 86_400.0
 BATCH: Final = 200
 EXPIRED_AT_ONCE: Final = 50
-"""Jobs, with all their events, per transaction: one must fit into the ballast of a full disk."""
+"""Jobs, with all their events, per transaction."""
 
 POSTPONED_S: Final = 600.0
 """A scope that could not be erased is retried after this time; others do not wait for it."""

@@ -13,7 +13,6 @@ import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
-from service.engine.ballast import Ballast
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.engine.image_port import (
     ImageQuota,
@@ -35,13 +34,11 @@ class StoredImages:
         database: sa.Engine,
         retention_s: float,
         quota: ImageQuota,
-        ballast: Ballast,
     ) -> None:
         self._tenant = tenant
         self._database = database
         self._retention_s = retention_s
         self._quota = quota
-        self._ballast = ballast
 
     @available
     def find(self, image_id: str) -> ImageRecord | None:
@@ -101,9 +98,6 @@ class StoredImages:
     @available
     def erase(self, image_id: str) -> Sequence[str]:
         """Forget the picture; returns its scopes, which the caller should erase."""
-        return self._ballast.spend_on(lambda: self._erase(image_id))
-
-    def _erase(self, image_id: str) -> Sequence[str]:
         with self._database.begin() as connection:
             return _forget(connection, IMAGES.c.id == image_id, *self._seen())
 

@@ -37,11 +37,10 @@ class NewJob:
     """A job to accept; its blobs are already stored, ``options`` being the request as JSON.
 
     ``inputs`` is what else it needs, by name, ``pictures`` of them pictures of a person that came
-    with the request: so many jobs it counts for while it waits.
-    ``request_id`` and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is
-    a blob too, a
-    :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end. ``label``
-    is what the caller calls the person of a fit or a scan.
+    with the request: so many jobs it counts for while it waits. ``request_id`` identifies the HTTP
+    request in logs; ``webhook`` is a blob too, a :class:`api_schemas.webhooks.WebhookTarget` as
+    JSON: whom to notify of the job's end. ``label`` is what the caller calls the person of a fit or
+    a scan.
     """
 
     id: str
@@ -52,7 +51,6 @@ class NewJob:
     label: str | None = None
     idempotency: Idempotency | None = None
     request_id: str | None = None
-    traceparent: str | None = None
     webhook: StoredBlob | None = None
 
 
@@ -103,7 +101,6 @@ class JobRecord:
     fingerprint: str | None
     last_event: int
     request_id: str | None
-    traceparent: str | None
     webhook: WebhookRecord | None
 
 

@@ -54,7 +54,6 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
         request_id=values["request_id"],
-        traceparent=values["traceparent"],
         last_event=values["last_event"],
         webhook=None
         if values["webhook_state"] is None

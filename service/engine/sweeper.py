@@ -2,7 +2,6 @@
 
 import logging
 import threading
-from functools import partial
 from typing import Final
 
 import sqlalchemy as sa
@@ -10,7 +9,6 @@ from dbos import DBOSClient
 from sqlalchemy.exc import OperationalError
 
 from service.blobs import BlobStore, BlobsUnavailableError
-from service.engine.ballast import Ballast
 from service.engine.expiry import (
     ClockGuard,
     drop_old_tombstones,
@@ -36,13 +34,11 @@ class Sweeper:
         blobs: BlobStore,
         *,
         interval_s: float,
-        ballast: Ballast,
     ) -> None:
         self._database = database
         self._client = client
         self._blobs = blobs
         self._interval_s = interval_s
-        self._ballast = ballast
         self._clock = ClockGuard()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
@@ -61,9 +57,9 @@ class Sweeper:
         now = self._clock.settled_time()
         if now is not None:
             while not self._stopped.is_set():
-                if self._ballast.spend_on(partial(self._expire_jobs, now)) == 0:
+                if self._expire_jobs(now) == 0:
                     break
-            self._ballast.spend_on(partial(self._expire_others, now))
+            self._expire_others(now)
         erased = 0
         while not self._stopped.is_set():
             with self._database.connect() as connection:
@@ -72,8 +68,7 @@ class Sweeper:
                 break
             erased += sum(self._erase(scope) for scope in scopes)
         if erased:
-            self._ballast.spend_on(lambda: forget_pages(self._database))
-        self._ballast.fill()
+            forget_pages(self._database)
         return erased
 
     def _expire_jobs(self, now: float) -> int:
@@ -93,7 +88,7 @@ class Sweeper:
             with self._database.begin() as connection:
                 postpone(connection, scope)
             return False
-        self._ballast.spend_on(lambda: self._forget(scope))
+        self._forget(scope)
         return True
 
     def _forget(self, scope: str) -> None:

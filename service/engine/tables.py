@@ -37,7 +37,6 @@ JOBS = sa.Table(
     sa.Column("idempotency_key", sa.String(64)),
     sa.Column("fingerprint", sa.String(64)),
     sa.Column("request_id", sa.String(64)),
-    sa.Column("traceparent", sa.String(64)),
     sa.Column("last_event", sa.Integer, nullable=False),
     sa.Column("webhook_target", sa.String(64)),
     sa.Column("webhook_state", sa.String(16)),

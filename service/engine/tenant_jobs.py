@@ -13,7 +13,6 @@ from sqlalchemy.exc import IntegrityError
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from service.engine.admission import Admission
 from service.engine.availability import available
-from service.engine.ballast import Ballast
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
     enter_erasures,
@@ -49,7 +48,6 @@ class DbosTenantJobs:
         client: DBOSClient,
         admission: Admission,
         retention_s: float,
-        ballast: Ballast,
         root: str,
         parent: str | None = None,
     ) -> None:
@@ -60,7 +58,6 @@ class DbosTenantJobs:
         self._client = client
         self._admission = admission
         self._retention_s = retention_s
-        self._ballast = ballast
 
     def derivations(self, parent_id: str) -> "DbosTenantJobs":
         """Return the jobs derived from a fit or scan of this tenant."""
@@ -69,7 +66,6 @@ class DbosTenantJobs:
             client=self._client,
             admission=self._admission,
             retention_s=self._retention_s,
-            ballast=self._ballast,
             root=self._root,
             parent=parent_id,
         )
@@ -160,9 +156,6 @@ class DbosTenantJobs:
 
         If that worker is dead, the next one finds the job, sees the request and ends it.
         """
-        return self._ballast.spend_on(lambda: self._cancel(job_id))
-
-    def _cancel(self, job_id: str) -> JobRecord | None:
         with self._database.begin() as connection:
             canceled = end_job(
                 connection,
@@ -185,10 +178,10 @@ class DbosTenantJobs:
     @available
     def erase(self, job_id: str) -> Sequence[str]:
         """Delete records, events and checkpoints; a running attempt finds itself superseded."""
-        forgotten = self._ballast.spend_on(lambda: self._forget(job_id))
+        forgotten = self._forget(job_id)
         if forgotten:
             try:
-                self._ballast.spend_on(lambda: self._forget_traces(forgotten))
+                self._forget_traces(forgotten)
             except ABSENCES as error:
                 cause = getattr(error, "orig", error)
                 LOG.warning("The sweep comes to what is left of a job (%s).", cause)
@@ -312,7 +305,6 @@ class DbosTenantJobs:
                     idempotency_key=None if again is None else again.key,
                     fingerprint=None if again is None else again.fingerprint,
                     request_id=job.request_id,
-                    traceparent=job.traceparent,
                     last_event=1,
                     webhook_target=job.webhook.digest if job.webhook else None,
                     webhook_state=WebhookState.WAITING.value if job.webhook else None,

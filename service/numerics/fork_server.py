@@ -58,16 +58,14 @@ class NoProcessError(Exception):
 
 
 class Child:
-    """A process that does tasks (:mod:`service.numerics.child`); ``tasks`` it was given so many."""
+    """A process that does tasks (:mod:`service.numerics.child`)."""
 
     def __init__(self, connection: Connection, process: ForkServerProcess) -> None:
         self._connection = connection
         self._process = process
-        self.tasks = 0
 
     def give(self, message: Message, parts: Iterable[bytes]) -> None:
         """Send it a task."""
-        self.tasks += 1
         send(self._connection, message, parts)
 
     def receive(self, timeout_s: float | None = None) -> Received | None:

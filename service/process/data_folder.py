@@ -82,7 +82,7 @@ def prepare_data_folder(settings: Settings) -> None:
     for path in (folder, settings.blob_dir, *files):
         if path.exists() and not _may_write(path):
             raise _unusable(settings, f"{_user()} may not write {path}")
-    own = {settings.blob_dir.name, settings.ballast_file.name, *(file.name for file in files)}
+    own = {settings.blob_dir.name, *(file.name for file in files)}
     tighten_own_folder(folder, own=own)
     tighten(settings.blob_dir)
 

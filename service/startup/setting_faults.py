@@ -10,7 +10,7 @@ from pydantic_core import ErrorDetails
 from service.setting_addresses import NOT_SHOWN, without_secrets
 from service.settings import PREFIX, Settings
 
-ADDRESSES: Final = frozenset({"database_url", "blob_url", "s3_endpoint_url", "traces_endpoint"})
+ADDRESSES: Final = frozenset({"database_url", "blob_url", "s3_endpoint_url"})
 SECRETS: Final = frozenset({"webhook_secret"})
 
 LONGEST_SHOWN: Final = 200

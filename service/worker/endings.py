@@ -2,18 +2,13 @@
 
 from api_schemas.problems import Problem, problem
 from service.blobs import BlobsUnavailableError, StorageFullError
-from service.engine.port import AttemptResult, Ending
+from service.engine.port import Ending
 
 
 def ending_by(reason: Problem) -> Ending:
     """How an attempt ended whose process told of this problem."""
     is_late = reason.type == too_slow(0.0).type
     return Ending.TIMED_OUT if is_late else Ending.FAILED
-
-
-def is_unforeseen(result: AttemptResult) -> bool:
-    """Whether an attempt may have ended so for what was in its process before."""
-    return result.ending is Ending.CRASHED or result.problem in (fault(), out_of_memory())
 
 
 def fault() -> Problem:

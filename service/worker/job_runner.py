@@ -1,19 +1,17 @@
 """The worker's side of a job: find a child, listen, stop it in time, note how it ended."""
 
-import contextlib
 import logging
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Final, NamedTuple, ParamSpec, TypeVar
+from typing import Final, ParamSpec, TypeVar
 
 from pydantic import ValidationError
 
 from api_schemas.results import Artifact
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord
-from service.numerics.fork_server import Child, NoProcessError
-from service.numerics.job_lane import JobLane
+from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
 from service.numerics.messages import (
     DoneMessage,
     FaultMessage,
@@ -22,16 +20,15 @@ from service.numerics.messages import (
     Received,
     TaskMessage,
 )
+from service.numerics.tasks import ChildSetup
 from service.process.logs import current_log_context
 from service.process.retrying import retry_with_pauses
-from service.process.tracing import StageSpans, span
 from service.settings import Settings
 from service.worker.artifacts import describe_artifact
 from service.worker.endings import (
     ending_by,
     fault,
     input_gone,
-    is_unforeseen,
     no_process,
     no_storage,
     out_of_memory,
@@ -57,34 +54,23 @@ STOPPED: Final = {
 }
 
 
-class Owner(NamedTuple):
-    """Who may see a job. A process that a picture took over would see no more than that."""
-
-    tenant: str
-    token: str | None
-
-
-def owner_of(job: JobRecord) -> Owner:
-    """Who may see the job: who has its tenant's keys, or the token it was made with."""
-    return Owner(job.tenant, job.token)
-
-
 class JobRunner:
-    """Runs attempts in children.
+    """Runs each attempt in a child of its own."""
 
-    One that has done a job well runs the next one, if that is its owner's and follows at once.
-    """
-
-    def __init__(self, settings: Settings, blobs: BlobStore, lane: JobLane) -> None:
+    def __init__(
+        self, settings: Settings, blobs: BlobStore, server: ForkServer, setup: ChildSetup
+    ) -> None:
         self._settings = settings
         self._blobs = blobs
-        self._lane = lane
+        self._server = server
+        self._setup = setup
+        self._crashes = CrashesInARow(server)
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
         try:
             result = self._run(attempt)
-            self._lane.note_end(crashed=result.ending is Ending.CRASHED)
+            self._crashes.note(crashed=result.ending is Ending.CRASHED)
             return result
         except BlobMissingError:
             LOG.warning("The input of the job is gone.")
@@ -98,28 +84,13 @@ class JobRunner:
 
     def _run(self, attempt: Attempt) -> AttemptResult:
         deadline = time.monotonic() + self._settings.job_time_limit_s
-        owner = owner_of(attempt.job)
-        # Whatever ended the attempt before is not to have been left in a process.
-        kept = self._lane.take(owner) if attempt.job.attempt == 1 else None
-        if kept is not None:
-            result = self._run_in(kept, owner, attempt, deadline)
-            if not is_unforeseen(result):
-                return result
-            LOG.warning("The job failed in a process that had run others: it gets a new one.")
-        return self._run_in(self._lane.start(), owner, attempt, deadline)
-
-    def _run_in(
-        self, child: Child, owner: Owner, attempt: Attempt, deadline: float
-    ) -> AttemptResult:
+        child = self._server.start_child(self._setup)
         try:
             computed = self._compute(child, attempt, deadline)
-        except Exception:
+        finally:
             child.end()
-            raise
         if isinstance(computed, AttemptResult):
-            child.end()
             return computed
-        self._lane.keep(child, owner)
         attempt.leave_slot()
         directive = attempt.directive()
         if directive is not Directive.CONTINUE:
@@ -136,10 +107,9 @@ class JobRunner:
         try:
             with (
                 child.killed_in_time(deadline - time.monotonic() + WATCHDOG_S),
-                contextlib.closing(StageSpans()) as spans,
             ):
                 self._give(child, attempt.job)
-                return self._follow(attempt, child, spans, deadline=deadline)
+                return self._follow(attempt, child, deadline=deadline)
         except (EOFError, OSError, ValidationError):
             # The pipe broke, or what came through it was no message of ours.
             if time.monotonic() >= deadline:
@@ -164,7 +134,7 @@ class JobRunner:
         )
 
     def _follow(
-        self, attempt: Attempt, child: Child, spans: StageSpans, *, deadline: float
+        self, attempt: Attempt, child: Child, *, deadline: float
     ) -> "_Computed | AttemptResult":
         progress = ThrottledProgress(attempt, interval_s=self._settings.progress_interval_s)
         next_look = 0.0
@@ -174,7 +144,6 @@ class JobRunner:
                 if not isinstance(received.message, ProgressMessage):
                     return _ended(received)
                 progress.take(received.message)
-                spans.enter(received.message.stage)
             directive = progress.store_if_due()
             now = time.monotonic()
             if now >= deadline:
@@ -188,8 +157,7 @@ class JobRunner:
 
     def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
         put_all = retry_while_storage_is_away(self._blobs.put_all)
-        with span("store result"):
-            digests = put_all(scope, list(files.values()))
+        digests = put_all(scope, list(files.values()))
         return tuple(
             describe_artifact(name, content, digest=digest)
             for (name, content), digest in zip(files.items(), digests, strict=True)

@@ -9,7 +9,6 @@ from typing import Final, NoReturn
 
 from service.blobs import open_blob_store, setting_of_storage
 from service.numerics.fork_server import ForkServer, settle_environment
-from service.numerics.job_lane import JobLane
 from service.numerics.quick_lane import QuickLane, answer_questions
 from service.numerics.tasks import child_setup
 from service.process.data_folder import open_disk, prepare_data_folder
@@ -61,7 +60,7 @@ def run_worker(
     else:
         server = _answering(settings, questions_at, estimates, secretless, preload)
     setup = child_setup(settings, name="job", tasks=pipeline, niceness=NICENESS)
-    runner = JobRunner(settings, blobs, JobLane(server, setup, jobs=settings.child_jobs))
+    runner = JobRunner(settings, blobs, server, setup)
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
@@ -70,9 +69,7 @@ def run_worker(
     prepare_database(settings.system_database_url)
     take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
     from service.engine.dbos_worker import DbosWorkerEngine
-    from service.process.tracing import start_tracing
 
-    tracing = start_tracing(settings, role="worker")
     engine = DbosWorkerEngine(
         open_database(
             settings.system_database_url,
@@ -95,7 +92,6 @@ def run_worker(
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)
-    tracing.stop()
     _end(work)
 
 

@@ -78,7 +78,6 @@ HEADERS = (
     "Range",
     "Transfer-Encoding",
     "X-Request-Id",
-    "traceparent",
 )
 HEADER_VALUES = (
     b"",

@@ -18,7 +18,7 @@ from tests.distributions import built
 from tests.installation import applies
 
 REPOSITORY = Path(__file__).parents[2]
-EXTRAS = ("s3", "tracing", "detector", "heic")
+EXTRAS = ("s3", "detector", "heic")
 """Of users; the others are for those who develop and evaluate."""
 
 COMPANIONS = ("pydantic_core", "botocore")

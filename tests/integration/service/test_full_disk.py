@@ -1,4 +1,4 @@
-"""A real disk of a few megabytes that fills up: nothing is lost, and erasing always works."""
+"""A real disk of a few megabytes that fills up: nothing is lost, and the reserve lets erase."""
 
 import contextlib
 import hashlib
@@ -13,7 +13,6 @@ from typing import Any
 import httpx
 import pytest
 
-from service.engine.ballast import WHOLE_BYTES
 from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -180,7 +179,7 @@ def test_what_waits_is_begun_when_there_is_room_again(
         assert (job["state"], job["attempt"]) == ("succeeded", 1)
 
 
-def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost(
+def test_in_the_reserve_all_can_be_read_and_erased_and_nothing_is_lost(
     on_disk: tuple[SmallDisk, Service], tmp_path: Path
 ):
     note, gate = tmp_path / "pids", tmp_path / "gate"
@@ -192,8 +191,7 @@ def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost
     running = service.submit({"gate": str(gate), "note_pid": str(note)})
     waiting = [service.submit({"number": number}) for number in range(2)]
     eventually(lambda: pids_noted(note), what="the fit runs")
-    disk.leave(0)
-    assert disk.free_bytes == 0
+    disk.leave(SHORT)
     assert_no_room(service.post())
     assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
     assert service.client.get("/metrics").status_code == 200
@@ -204,7 +202,7 @@ def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost
         assert service.client.delete(path).status_code == 204, path
         assert service.client.get(path).status_code == 404
         # Somebody else takes what has become free.
-        disk.leave(0)
+        disk.leave(SHORT)
     picture = hashlib.sha256(scripted_image(large(0))).hexdigest()
     assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
     assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
@@ -215,27 +213,24 @@ def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost
     assert service.ended(service.submit())["state"] == "succeeded"
     for path in ended[2:]:
         assert service.client.get(f"{path}/result").status_code == 200
-    ballast = disk.folder / "data" / "ballast"
-    eventually(lambda: ballast.stat().st_size == WHOLE_BYTES, what="room is held back again")
 
 
-def test_what_expires_on_a_full_disk_makes_room(disk: SmallDisk):
+def test_what_expires_while_the_disk_is_short_makes_room(disk: SmallDisk):
     with running_service(machine_on(disk, retention_hours=4.0 / 3600)) as service:
         paths = [service.submit(large(number)) for number in range(5)]
         for path in paths:
             service.ended(path)
-        disk.leave(0)
+        disk.leave(SHORT)
         eventually(lambda: not blobs_of(disk), what="all is erased")
         assert {service.client.get(path).status_code for path in paths} == {410}
-        assert disk.free_bytes > 0
 
 
-def test_a_service_started_on_a_full_disk_can_erase(disk: SmallDisk):
+def test_a_service_started_while_the_disk_is_short_can_erase(disk: SmallDisk):
     machine = machine_on(disk)
     with running_service(machine) as service:
         path = service.submit(large(1))
         service.ended(path)
-    disk.leave(0)
+    disk.leave(SHORT)
     with running_service(machine, api_only=True) as service:
         assert service.client.get(f"{path}/result").status_code == 200
         assert service.client.delete(path).status_code == 204
@@ -248,7 +243,7 @@ def test_a_key_can_be_revoked_on_a_full_disk(disk: SmallDisk):
     with running_service(machine, api_only=True):
         pass
     key = keys(machine, "create", "somebody").stdout.strip()
-    disk.leave(0)
+    disk.leave(SHORT)
     revoked = keys(machine, "revoke", key.split("_")[1])
     assert revoked.returncode == 0, revoked.stderr
 

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from api_schemas.images import UploadedImage
-from service.engine.ballast import Ballast
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.image_port import ImageQuota, NewImage
@@ -226,7 +225,6 @@ def engine_of(machine: Machine) -> DbosJobEngine:
         sweep_interval_s=60.0,
         heartbeat_s=1.0,
         dead_after_s=10.0,
-        ballast=Ballast(None),
     )
 
 

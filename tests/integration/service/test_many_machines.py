@@ -9,8 +9,6 @@ from pathlib import Path
 import psycopg
 import pytest
 
-from service.engine.database import open_database
-from service.engine.keys import KeyRing
 from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -26,8 +24,6 @@ from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
 JOBS = 8
-LIMIT = 40
-"""Requests of one key a minute."""
 
 RENAMED = ("unshare", "--uts", "--map-root-user", "sh", "-c", 'hostname "$0" && exec "$@"')
 """Runs a command with a host name of its own: to the others it is on another machine."""
@@ -65,14 +61,6 @@ def prepare(machine: Machine) -> None:
         env=machine.environment(),
         check=True,
     )
-
-
-def new_key(database_url: str) -> str:
-    database = open_database(database_url, connections=1)
-    try:
-        return KeyRing(database).create("somebody")
-    finally:
-        database.dispose()
 
 
 def same_host(pid: int, other: int) -> bool:

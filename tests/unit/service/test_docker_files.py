@@ -234,7 +234,7 @@ def runtime_requirements(*arguments: str) -> dict[str, str]:
 
 def test_the_image_gets_what_the_service_runs_on_and_no_tools():
     names = runtime_requirements().keys()
-    assert {"dbos", "numba", "boto3", "opentelemetry-sdk", "pi-heif"} <= names
+    assert {"dbos", "numba", "boto3", "pi-heif"} <= names
     assert names.isdisjoint({"pytest", "ruff", "pyright", "moto", "mitsuba"})
 
 
