@@ -159,10 +159,7 @@ async def get_picture(
     responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
 )
 def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
-    """Erase a picture; fits that were made of it are not affected.
-
-    With a key it is erased wherever it was uploaded: with keys and with tokens of the tenant.
-    """
+    """Erase a picture; fits that were made of it are not affected."""
     scopes = context.images.erase(image_id)
     if not scopes:
         raise not_found(what="such picture")
