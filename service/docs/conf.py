@@ -20,12 +20,10 @@ version = release = VERSION
 extensions = [
     "_extensions.mathml",
     "_extensions.nothing_inline",
-    "_extensions.running_service",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
-    "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
 exclude_patterns = [
