@@ -23,7 +23,7 @@ VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := -p tests.annotations --jaxtyping-packages=fitter,tests.annotations.checked
 
-.PHONY: demo setup test test-rest test-shapes test-others lint serve train report openapi examples docs page client wheel image audit sbom release lock clean
+.PHONY: demo setup test test-rest test-shapes test-others lint serve train report openapi examples docs page client wheel image audit release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -98,11 +98,6 @@ audit: $(PACKAGES)
 		|| { $(PYTHON) -m venv .venv-audit && .venv-audit/bin/python -m pip install -q --disable-pip-version-check pip-audit==2.10.1; } \
 		|| echo "pip-audit cannot be installed here."
 	$(VENV)/bin/python -m tests.dependency_audit .venv-audit/bin/pip-audit
-
-# What a container is made of, as CycloneDX. The image has the same at /opt/maquette/sbom.cdx.json.
-sbom: $(STAMP)
-	$(VENV)/bin/python docker/sbom.py --python $(VENV)/bin/python --detector $(VENV)/lib \
-		--output dist/sbom.cdx.json
 
 # The image of a release. Its base is named with its digest in docker/images.env.
 image:

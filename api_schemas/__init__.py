@@ -2,6 +2,5 @@
 
 ``points`` and ``requests`` are what a caller sends; ``jobs``, ``results``, ``body_models`` and
 ``problems`` are what the service answers; ``images``, ``proposals``, ``initial_poses``, ``bodies``
-and ``webhooks`` are both sides of their resources. ``openapi.json`` is the exported contract. The
-repository's ``released/``, which is not installed, holds it as it was at every released version.
+and ``webhooks`` are both sides of their resources. ``openapi.json`` is the exported contract.
 """

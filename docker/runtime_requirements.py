@@ -1,8 +1,7 @@
 """Print, out of the lock file, what the service in a container needs, with versions and hashes.
 
 ``python3 runtime_requirements.py pyproject.toml requirements.lock`` prints the project's
-dependencies, the extras that a container is run with, and all that these need. With ``--of NAME``
-it is a package of the lock file and what that needs, instead.
+dependencies, the extras that a container is run with, and all that these need.
 """
 
 import argparse
@@ -23,11 +22,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("project", type=Path)
     parser.add_argument("lock", type=Path)
-    parser.add_argument("--of", metavar="NAME", help="a package of the lock file")
     parsed = parser.parse_args()
     entries = read_lock(parsed.lock.read_text())
-    roots = [parsed.of] if parsed.of else direct(parsed.project)
-    for name in needed(entries, roots):
+    for name in needed(entries, direct(parsed.project)):
         print(entries[name].rstrip())
 
 

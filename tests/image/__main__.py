@@ -62,7 +62,6 @@ def look_inside(image: Image) -> None:
     print(f"image: {contents.size_mb(image.root)} MB, user {image.user[0]}:{image.user[1]}")
     print(f"  of it ours: {contents.size_mb(image.root / contents.OURS)} MB")
     expect("no tools of building or developing", contents.tools(image) == [])
-    expect("a list of what it is made of", (image.root / contents.SBOM).is_file())
     expect("nothing left of the build", contents.remains(image) == [])
     expect("root owns every file and alone may change it", contents.not_sealed(image) == [])
     writable = contents.writable(image)

@@ -9,7 +9,6 @@ from tests.image.build import Image
 
 TOOLS: Final = ("gcc", "make", "git", "node", "npm", "ruff", "pyright", "pytest", "pip")
 OURS: Final = "opt/maquette"
-SBOM: Final = "opt/maquette/sbom.cdx.json"
 
 
 def size_mb(folder: Path) -> int:

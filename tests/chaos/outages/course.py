@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from tests.chaos.caller import Task
-from tests.chaos.outages.alerts import watching
 from tests.chaos.outages.client import Followed, GoodClient
 from tests.chaos.outages.exchanges import Exchange, Ledger
 from tests.chaos.outages.probes import Probes, probing
@@ -50,7 +49,6 @@ class Course:
     exchanges: list[Exchange] = field(default_factory=list[Exchange])
     busy_at: float = 0.0
     """When all workers were first seen at work after the fault."""
-    alerts: dict[str, float] | None = None
     log: str = ""
 
 
@@ -62,7 +60,6 @@ def undergo(
     deployment = scene.deployment
     logged_before = deployment.log.stat().st_size
     with (
-        watching(deployment.address) as watch,
         probing(deployment.address, ledger) as probes,
         contextlib.closing(GoodClient(deployment.address, ledger, parent=parent)) as again,
     ):
@@ -81,7 +78,6 @@ def undergo(
         course.second_answers = sum(
             again.post(tasks[job.which], key=job.key) != job.path for job in course.jobs if job.path
         )
-        seen = watch.seen()
     course.busy_at = min(
         (
             moment
@@ -90,7 +86,6 @@ def undergo(
         ),
         default=course.ended_at,
     )
-    course.alerts = None if seen is None else dict(seen)
     course.exchanges = ledger.all()
     with deployment.log.open(errors="replace") as stream:
         stream.seek(logged_before)

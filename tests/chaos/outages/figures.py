@@ -43,7 +43,6 @@ class Figures:
     until_all_ended_s: float
     not_ready: Mapping[str, int]
     metrics: Mapping[str, int]
-    alerts: Mapping[str, float] | None
     log_lines: int
     log_traces: int
     log_messages: Mapping[str, int]
@@ -120,7 +119,6 @@ def judge(
         until_all_ended_s=_until_all_ended_s(course),
         not_ready=counted([e for e in exchanges if e.what == "GET ready" and e.status != 200]),
         metrics=counted([e for e in exchanges if e.what == "GET metrics" and e.status != 200]),
-        alerts=course.alerts,
         log_lines=len(lines),
         log_traces=sum("Traceback (most recent" in line for line in lines),
         log_messages=_messages(lines),

@@ -65,7 +65,7 @@ def test_what_one_command_leaves_the_other_runs(tmp_path: Path):
 def test_files_that_are_left_unread_have_none():
     quick = TESTS / "unit" / "numerics" / "test_meshes.py"
     both = TESTS / "unit" / "population" / "test_body_estimate.py"
-    rest = TESTS / "integration" / "test_sbom.py"
+    rest = TESTS / "integration" / "test_distributions.py"
     unread = {
         command: [has_none(file, command) for file in (quick, both, rest)]
         for command in ("not rest", "rest", "shapes", "not shapes", "")
