@@ -18,14 +18,8 @@ from service.api.context import ApiContext
 from service.api.job_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.storage import disk_full, erase_at_once, storing
-from service.engine.port import (
-    Idempotency,
-    JobRecord,
-    NewJob,
-    Submission,
-    SubmitOutcome,
-    TenantJobs,
-)
+from service.engine.port import Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.states import ACTIVE
 from service.representation.jobs import POLL_AFTER_S, job_path
 

@@ -45,8 +45,8 @@ from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
+from service.engine.dbos_jobs import JobEngine
 from service.engine.keys import KeyRing
-from service.engine.port import JobEngine
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk
 from service.settings import Settings

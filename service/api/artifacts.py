@@ -25,7 +25,8 @@ from service.api.problems import ProblemError, documented, not_found
 from service.api.renditions import Rendition, chosen_rendition, is_negotiated
 from service.api.security_headers import STAND_ALONE
 from service.blobs import BlobMissingError
-from service.engine.port import JobRecord, TenantJobs
+from service.engine.port import JobRecord
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.inputs import RESULT
 from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL

@@ -13,8 +13,10 @@ from service.api.event_feed import EventFeed
 from service.api.metrics import ServiceMetrics
 from service.api.readiness import Readiness
 from service.blobs import BlobStore
-from service.engine.image_port import TenantImages
-from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
+from service.engine.dbos_jobs import JobEngine
+from service.engine.images import TenantImages
+from service.engine.port import FIT, SCAN
+from service.engine.tenant_jobs import TenantJobs
 from service.process.data_folder import Disk
 from service.settings import Settings
 

@@ -32,7 +32,8 @@ from service.api.job_resources import OF_FITS, OF_SCANS, JobResource
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
 from service.api.problems import ProblemError, documented
 from service.api.uploads import MULTIPART, read_request_and_files
-from service.engine.port import SCAN, JobRecord, StoredBlob, TenantJobs
+from service.engine.port import SCAN, JobRecord, StoredBlob
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.inputs import OF_FIRST_VIEW, REQUEST
 from service.representation.jobs import represent
 from service.submissions.refusal import refused

@@ -8,7 +8,8 @@ from typing import Final
 
 from starlette.concurrency import run_in_threadpool
 
-from service.engine.port import EngineUnavailableError, JobEngine
+from service.engine.dbos_jobs import JobEngine
+from service.engine.port import EngineUnavailableError
 
 LOG: Final = logging.getLogger(__name__)
 

@@ -15,7 +15,8 @@ from api_schemas.jobs import EventData, EventKind
 from service.api.context import ApiContext
 from service.api.job_routes import JOB_PROBLEMS, find
 from service.api.problems import documented
-from service.engine.port import EngineUnavailableError, JobEvent, TenantJobs
+from service.engine.port import EngineUnavailableError, JobEvent
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.states import TERMINAL
 
 PING_S: Final = 15.0

@@ -28,7 +28,7 @@ from service.api.problems import ProblemError, documented, not_found
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
 from service.api.uploads import picture_form, read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
-from service.engine.image_port import (
+from service.engine.images import (
     ImageQuotaError,
     ImageRecord,
     KeptImage,

@@ -13,7 +13,8 @@ from service.api.json_bodies import JSON
 from service.api.problems import ProblemError, not_found
 from service.api.storage import erase_at_once
 from service.blobs import BlobMissingError
-from service.engine.port import StoredBlob, TenantJobs
+from service.engine.port import StoredBlob
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.states import ACTIVE
 from service.webhooks.targets import read_target
 

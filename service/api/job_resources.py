@@ -32,7 +32,8 @@ from api_schemas.scans import (
 )
 from service.api.context import Context
 from service.api.job_routes import OfLabel, find
-from service.engine.port import FIT, SCAN, JobRecord, TenantJobs
+from service.engine.port import FIT, SCAN, JobRecord
+from service.engine.tenant_jobs import TenantJobs
 from service.representation.jobs import collection_path
 
 

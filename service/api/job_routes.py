@@ -12,7 +12,8 @@ from service.api.context import ApiContext
 from service.api.listing import cursor_of, cursor_pattern, cursor_query, page_of, read_cursor
 from service.api.problems import not_found
 from service.api.storage import erase_blobs
-from service.engine.port import JobRecord, TenantJobs
+from service.engine.port import JobRecord
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.states import ACTIVE, TERMINAL
 from service.representation.jobs import POLL_AFTER_S, list_path
 

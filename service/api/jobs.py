@@ -52,7 +52,7 @@ from service.api.json_bodies import JSON, json_content
 from service.api.listing import Limit
 from service.api.pictures import serve_blob
 from service.api.problems import documented
-from service.engine.port import TenantJobs
+from service.engine.tenant_jobs import TenantJobs
 from service.representation.jobs import represent
 
 LIST_PROBLEMS: Final = ("invalid-request", "not-ready", "internal-error")

@@ -18,7 +18,8 @@ from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
 from api_schemas.jobs import JobState, WebhookState
-from service.engine.port import EngineUnavailableError, JobEngine
+from service.engine.dbos_jobs import JobEngine
+from service.engine.port import EngineUnavailableError
 from service.engine.statistics import BOUNDS_S
 from service.jobs.states import TERMINAL
 from service.process.data_folder import Disk

@@ -16,7 +16,8 @@ from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, IfNoneMatch, find
 from service.api.negotiation import preferred
 from service.api.problems import documented, not_found
 from service.blobs import BlobMissingError
-from service.engine.port import JobRecord, StoredBlob, TenantJobs
+from service.engine.port import JobRecord, StoredBlob
+from service.engine.tenant_jobs import TenantJobs
 from service.jobs.inputs import SentPicture, pictures_of
 
 JPEG: Final = "image/jpeg"

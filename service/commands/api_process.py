@@ -13,8 +13,8 @@ from service.api.app import create_app
 from service.api.server import ApiServer
 from service.blobs import BlobStore, setting_of_storage
 from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import DbosJobEngine
-from service.engine.image_port import ImageQuota
+from service.engine.dbos_jobs import JobEngine
+from service.engine.images import ImageQuota
 from service.engine.keys import KeyRing
 from service.engine.storage_identity import take_storage
 from service.engine.webhooks import WebhookLedger
@@ -29,7 +29,7 @@ from service.webhooks.sending import Sender
 class ApiProcess:
     """What runs in an API process."""
 
-    engine: DbosJobEngine
+    engine: JobEngine
     webhooks: Deliverer
     server: ApiServer
 
@@ -76,8 +76,8 @@ def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
     return ApiProcess(engine=engine, webhooks=webhooks, server=server)
 
 
-def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> DbosJobEngine:
-    return DbosJobEngine(
+def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> JobEngine:
+    return JobEngine(
         database,
         blobs,
         max_queued=settings.max_queued,

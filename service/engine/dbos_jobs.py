@@ -15,15 +15,14 @@ from service.blobs import BlobStore
 from service.engine.admission import Admission
 from service.engine.availability import available
 from service.engine.facts import read_fact, touch_fact
-from service.engine.image_port import ImageQuota
-from service.engine.images import StoredImages
+from service.engine.images import ImageQuota, TenantImages
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch
 from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
 from service.engine.tables import JOBS
-from service.engine.tenant_jobs import DbosTenantJobs
+from service.engine.tenant_jobs import TenantJobs
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -35,9 +34,10 @@ _LAST_EVENTS: Final = sa.select(JOBS.c.id, JOBS.c.last_event).where(
 )
 
 
-class DbosJobEngine:
-    """Jobs of tenants, workers, statistics; see :class:`service.engine.port.JobEngine`.
+class JobEngine:
+    """The caller's side: jobs and pictures of tenants, and the state of the whole service.
 
+    Every method but those named ``of`` may raise :class:`EngineUnavailableError`.
     ``start`` begins the two background tasks: erasing what has expired, and watching the workers,
     about whom a single look says little.
     """
@@ -87,9 +87,9 @@ class DbosJobEngine:
         self._client.destroy()
         self._database.dispose()
 
-    def of(self, tenant: str, root: str = FIT) -> DbosTenantJobs:
+    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
         """Return the fits of a tenant, or its scans."""
-        return DbosTenantJobs(
+        return TenantJobs(
             database=self._database,
             client=self._client,
             admission=Admission(
@@ -101,9 +101,9 @@ class DbosJobEngine:
             root=root,
         )
 
-    def images_of(self, tenant: str) -> StoredImages:
+    def images_of(self, tenant: str) -> TenantImages:
         """Return the uploaded pictures of a tenant."""
-        return StoredImages(
+        return TenantImages(
             tenant,
             database=self._database,
             retention_s=self._retention_s,

@@ -44,8 +44,8 @@ OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
 
 
-class DbosWorkerEngine:
-    """Runs jobs in this process; see :class:`service.engine.port.WorkerEngine`."""
+class WorkerEngine:
+    """Runs jobs in this process until told to stop."""
 
     def __init__(
         self,

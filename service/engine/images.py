@@ -8,24 +8,65 @@ the other.
 
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
-from service.engine.image_port import (
-    ImageQuota,
-    ImageQuotaError,
-    ImageRecord,
-    KeptImage,
-    NewImage,
-)
 from service.engine.tables import IMAGES
 
 
-class StoredImages:
-    """Keep, look up and forget pictures; see :class:`service.engine.port.TenantImages`."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewImage:
+    """An uploaded picture to keep; its blob, named ``id``, is already in ``scope``.
+
+    ``width`` and ``height`` are those of the upright picture.
+    """
+
+    id: str
+    scope: str
+    media_type: str
+    width: int
+    height: int
+    size: int
+    focal_length_35mm: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImageRecord(NewImage):
+    """A stored picture; times are seconds since the epoch."""
+
+    created_at: float
+    expires_at: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptImage:
+    """The picture, and whether it has just been stored or was there already."""
+
+    record: ImageRecord
+    is_new: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImageQuota:
+    """How many uploaded pictures, and how many bytes of them, one tenant may keep."""
+
+    images: int
+    size: int
+
+
+class ImageQuotaError(Exception):
+    """There is no room for this picture besides the tenant's others; the message says how many."""
+
+
+class TenantImages:
+    """The uploaded pictures of one tenant; those of others can be neither seen nor touched.
+
+    Every method may raise :class:`service.engine.port.EngineUnavailableError`.
+    """
 
     def __init__(
         self,
@@ -50,7 +91,7 @@ class StoredImages:
 
     @available
     def images(self, *, limit: int, before: tuple[float, str] | None) -> Sequence[ImageRecord]:
-        """Return pictures newest first."""
+        """Return pictures newest first, after the one that ``before`` names by time and id."""
         query = (
             sa.select(IMAGES)
             .where(*self._seen())
@@ -72,14 +113,25 @@ class StoredImages:
 
     @available
     def reserve(self, scope: str, *, size: int) -> None:
-        """List the scope for erasure until the picture is kept."""
+        """Announce that a picture of ``size`` bytes is about to be stored in a scope.
+
+        The scope is listed for erasure until the picture is kept: an hour later it is erased.
+
+        Raises
+        ------
+        ImageQuotaError
+            If there is no room for the picture.
+        """
         with self._database.begin() as connection:
             self._check_room(connection, size)
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
     def keep(self, image: NewImage) -> KeptImage | None:
-        """Write the record; the same picture from an earlier upload takes precedence."""
+        """Keep a picture whose scope was reserved, or return the same one kept before.
+
+        None if its scope was considered abandoned and has been erased meanwhile.
+        """
         try:
             with self._database.begin() as connection:
                 earlier = self._renew(connection, image.id)
@@ -97,7 +149,10 @@ class StoredImages:
 
     @available
     def erase(self, image_id: str) -> Sequence[str]:
-        """Forget the picture; returns its scopes, which the caller should erase."""
+        """Forget the picture; returns its scope, if any, which the caller should erase.
+
+        If the caller does not get to it, the sweep will.
+        """
         with self._database.begin() as connection:
             return _forget(connection, IMAGES.c.id == image_id, *self._seen())
 

@@ -1,15 +1,13 @@
 """What the API and the worker require of a job engine, however it is implemented."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final, Protocol
 
-from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
-from service.engine.image_port import TenantImages
 
 FIT: Final = "fit"
 SCAN: Final = "scan"
@@ -158,69 +156,6 @@ class Submission:
     job: JobRecord | None
 
 
-class TenantJobs(Protocol):
-    """The fits or the scans of one tenant, or the derivations of one of them.
-
-    Other jobs can be neither seen nor touched through it. Every method but ``derivations`` may
-    raise :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` if
-    it has expired.
-    """
-
-    def derivations(self, parent_id: str) -> "TenantJobs":
-        """Return the jobs derived from a fit or scan of this tenant; they are erased with it."""
-        ...
-
-    def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
-        """Announce that blobs are about to be stored for a job.
-
-        The outcome is ``ACCEPTED``, but without a job, if they may be. If no job comes of it, they
-        are erased after an hour.
-        """
-        ...
-
-    def repeated(self, idempotency: Idempotency | None) -> Submission | None:
-        """Return the answer to a submission that repeats an earlier key; None if it is new."""
-        ...
-
-    def submit(self, job: NewJob) -> Submission:
-        """Accept a job durably, or say why not; its scope must have been reserved."""
-        ...
-
-    def job(self, job_id: str) -> JobRecord | None:
-        """Return the job, or None if there is none."""
-        ...
-
-    def jobs(
-        self,
-        *,
-        limit: int,
-        before: tuple[float, str] | None,
-        state: JobState | None,
-        label: str | None = None,
-    ) -> Sequence[JobRecord]:
-        """Return jobs newest first; ``before`` is the (created_at, id) of the last one seen.
-
-        With a ``state`` or a ``label`` only those that have it.
-        """
-        ...
-
-    def cancel(self, job_id: str) -> JobRecord | None:
-        """Stop a job: at once if queued, within moments if running; no effect if it has ended."""
-        ...
-
-    def erase(self, job_id: str) -> Sequence[str]:
-        """Stop a job and what is derived from it, and forget them with their events.
-
-        Returns the scopes of their blobs, none if there was no such job. The caller should erase
-        them; if it does not get to it, the sweep will.
-        """
-        ...
-
-    def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
-        """Return the events numbered above ``after``."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerStatus:
     """A worker as seen from here: how long ago its last heartbeat was seen, by our own clock.
@@ -260,45 +195,6 @@ class EngineStatistics:
     durations: tuple[DurationHistogram, ...]
     webhooks: Mapping[WebhookState, int]
     crashes: int
-
-
-class JobEngine(Protocol):
-    """The caller's side: jobs and pictures of tenants, and the state of the whole service.
-
-    Every method but those named ``of`` may raise :class:`EngineUnavailableError`.
-    """
-
-    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
-        """Return the fits of a tenant, or its scans."""
-        ...
-
-    def images_of(self, tenant: str) -> TenantImages:
-        """Return the uploaded pictures of a tenant."""
-        ...
-
-    def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
-        """Return the number of the last event of each job that exists."""
-        ...
-
-    def queued(self) -> int:
-        """Count the waiting jobs."""
-        ...
-
-    def workers(self) -> Sequence[WorkerStatus]:
-        """Return the workers that are known and not known to be gone."""
-        ...
-
-    def statistics(self) -> EngineStatistics:
-        """Return statistics of the whole service."""
-        ...
-
-    def body_models(self) -> BodyModels | None:
-        """Return what the worker that last started can fit; None before any did."""
-        ...
-
-    def check_writable(self) -> None:
-        """Raise :class:`EngineUnavailableError` if the database cannot be written."""
-        ...
 
 
 class Directive(StrEnum):
@@ -362,24 +258,3 @@ class Attempt(Protocol):
 
 
 AttemptHandler = Callable[[Attempt], AttemptResult]
-
-
-class WorkerEngine(Protocol):
-    """The worker's side: run jobs until told to stop."""
-
-    def start(
-        self,
-        handler: AttemptHandler,
-        *,
-        body_models: BodyModels,
-    ) -> None:
-        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
-
-        While the worker is not able to run any, jobs are left waiting, for this one or another,
-        and each heartbeat says so.
-        """
-        ...
-
-    def stop(self, *, drain_s: float) -> None:
-        """Claim no more, wait for running attempts, hand the rest back to other workers."""
-        ...

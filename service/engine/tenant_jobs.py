@@ -38,8 +38,13 @@ from service.engine.turns import turn_of_next_job
 LOG: Final = logging.getLogger(__name__)
 
 
-class DbosTenantJobs:
-    """Accept, look up, stop and erase jobs; see :class:`service.engine.port.TenantJobs`."""
+class TenantJobs:
+    """The fits or the scans of one tenant, or the derivations of one of them.
+
+    Other jobs can be neither seen nor touched through it. Every method but ``derivations`` may
+    raise :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` if
+    it has expired.
+    """
 
     def __init__(
         self,
@@ -59,9 +64,9 @@ class DbosTenantJobs:
         self._admission = admission
         self._retention_s = retention_s
 
-    def derivations(self, parent_id: str) -> "DbosTenantJobs":
-        """Return the jobs derived from a fit or scan of this tenant."""
-        return DbosTenantJobs(
+    def derivations(self, parent_id: str) -> "TenantJobs":
+        """Return the jobs derived from a fit or scan of this tenant; they are erased with it."""
+        return TenantJobs(
             database=self._database,
             client=self._client,
             admission=self._admission,
@@ -72,7 +77,11 @@ class DbosTenantJobs:
 
     @available
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
-        """List the job's scope for erasure until the job is accepted."""
+        """Announce that blobs are about to be stored for a job.
+
+        The outcome is ``ACCEPTED``, but without a job, if they may be. The job's scope is listed
+        for erasure until the job is accepted: an hour later it is erased.
+        """
         with self._database.begin() as connection:
             answered = self._admission.answered(connection, idempotency)
             if answered is not None:
@@ -82,13 +91,16 @@ class DbosTenantJobs:
 
     @available
     def repeated(self, idempotency: Idempotency | None) -> Submission | None:
-        """Return the answer to an earlier submission with this key."""
+        """Return the answer to a submission that repeats an earlier key; None if it is new."""
         with self._database.connect() as connection:
             return self._admission.earlier(connection, idempotency)
 
     @available
     def submit(self, job: NewJob) -> Submission:
-        """Write the record, which is all that a worker needs to find it."""
+        """Accept a job durably, or say why not; its scope must have been reserved.
+
+        Its record is all that a worker needs to find it.
+        """
         try:
             with read_then_write(self._database) as connection:
                 answered = self._admission.answered(connection, job.idempotency)
@@ -125,7 +137,10 @@ class DbosTenantJobs:
         state: JobState | None,
         label: str | None = None,
     ) -> Sequence[JobRecord]:
-        """Return jobs newest first."""
+        """Return jobs newest first; ``before`` is the (created_at, id) of the last one seen.
+
+        With a ``state`` or a ``label`` only those that have it.
+        """
         query = (
             sa.select(JOBS)
             .where(
@@ -152,7 +167,7 @@ class DbosTenantJobs:
 
     @available
     def cancel(self, job_id: str) -> JobRecord | None:
-        """End a queued job at once; ask the worker of a running one to stop.
+        """Stop a job: at once if queued, within moments if running; no effect if it has ended.
 
         If that worker is dead, the next one finds the job, sees the request and ends it.
         """
@@ -177,7 +192,11 @@ class DbosTenantJobs:
 
     @available
     def erase(self, job_id: str) -> Sequence[str]:
-        """Delete records, events and checkpoints; a running attempt finds itself superseded."""
+        """Stop a job and what is derived from it, and forget them with events and checkpoints.
+
+        Returns the scopes of their blobs, none if there was no such job. The caller should erase
+        them; if it does not get to it, the sweep will. A running attempt finds itself superseded.
+        """
         forgotten = self._forget(job_id)
         if forgotten:
             try:

@@ -68,9 +68,9 @@ def run_worker(
 
     prepare_database(settings.system_database_url)
     take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
-    from service.engine.dbos_worker import DbosWorkerEngine
+    from service.engine.dbos_worker import WorkerEngine
 
-    engine = DbosWorkerEngine(
+    engine = WorkerEngine(
         open_database(
             settings.system_database_url,
             connections=settings.worker_processes + SPARE_CONNECTIONS,

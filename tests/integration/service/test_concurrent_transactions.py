@@ -12,7 +12,7 @@ from sqlalchemy import event
 
 from api_schemas.jobs import JobState
 from service.engine.database import open_database
-from service.engine.dbos_jobs import DbosJobEngine
+from service.engine.dbos_jobs import JobEngine
 from service.engine.expiry import expire_jobs
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from service.engine.records import end_job, move_job
@@ -27,14 +27,14 @@ BLOB = StoredBlob(digest="0" * 64, media_type="application/json")
 
 
 @pytest.fixture
-def engine(machine: Machine) -> Iterator[DbosJobEngine]:
+def engine(machine: Machine) -> Iterator[JobEngine]:
     running = engine_of(machine)
     yield running
     running.close()
 
 
 @pytest.fixture
-def database(engine: DbosJobEngine, machine: Machine) -> Iterator[sa.Engine]:
+def database(engine: JobEngine, machine: Machine) -> Iterator[sa.Engine]:
     opened = open_database(
         machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
     )
@@ -76,7 +76,7 @@ def accept(jobs: Any, name: str, *sources: str) -> SubmitOutcome:
     return jobs.submit(new).outcome
 
 
-def fitted(engine: DbosJobEngine, database: sa.Engine, name: str, *, kept_s: float) -> None:
+def fitted(engine: JobEngine, database: sa.Engine, name: str, *, kept_s: float) -> None:
     assert accept(engine.of("ours"), name) is SubmitOutcome.ACCEPTED
     with database.begin() as connection:
         move_job(connection, name, state=JobState.RUNNING, values={"attempt": 1})
@@ -84,7 +84,7 @@ def fitted(engine: DbosJobEngine, database: sa.Engine, name: str, *, kept_s: flo
 
 
 def test_what_is_derived_never_outlives_a_fit_that_is_erased_while_it_is_accepted(
-    engine: DbosJobEngine, database: sa.Engine
+    engine: JobEngine, database: sa.Engine
 ):
     jobs = engine.of("ours")
     fitted(engine, database, "own", kept_s=100.0)
@@ -97,7 +97,7 @@ def test_what_is_derived_never_outlives_a_fit_that_is_erased_while_it_is_accepte
 
 
 def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
-    engine: DbosJobEngine, database: sa.Engine
+    engine: JobEngine, database: sa.Engine
 ):
     def sweep() -> int:
         with read_then_write(database) as connection:
@@ -111,9 +111,7 @@ def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
         assert connection.execute(sa.select(TOMBSTONES.c.id)).scalars().all() == ["short"]
 
 
-def test_a_notice_is_claimed_by_one_of_two_who_find_it_due(
-    engine: DbosJobEngine, database: sa.Engine
-):
+def test_a_notice_is_claimed_by_one_of_two_who_find_it_due(engine: JobEngine, database: sa.Engine):
     ledger = WebhookLedger(database, time_limit_s=10.0)
     fitted(engine, database, "told", kept_s=100.0)
     due = {"webhook_state": "due", "webhook_due_at": 1.0, "webhook_target": "0" * 64}

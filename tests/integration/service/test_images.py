@@ -9,8 +9,8 @@ import pytest
 
 from api_schemas.images import UploadedImage
 from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import DbosJobEngine
-from service.engine.image_port import ImageQuota, NewImage
+from service.engine.dbos_jobs import JobEngine
+from service.engine.images import ImageQuota, NewImage
 from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -212,10 +212,10 @@ def test_an_idempotency_key_holds_for_fits_of_uploaded_pictures(service: Service
 JSON = {"Content-Type": "application/json"}
 
 
-def engine_of(machine: Machine) -> DbosJobEngine:
+def engine_of(machine: Machine) -> JobEngine:
     url = machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
     prepare_database(url)
-    return DbosJobEngine(
+    return JobEngine(
         open_database(url),
         blobs=None,  # pyright: ignore[reportArgumentType]
         max_queued=10,

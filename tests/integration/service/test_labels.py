@@ -5,7 +5,7 @@ from uuid import uuid4
 
 import pytest
 
-from service.engine.dbos_jobs import DbosJobEngine
+from service.engine.dbos_jobs import JobEngine
 from service.engine.port import FIT, SCAN, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service
 from tests.integration.service.scanning import SCAN as SCAN_REQUEST
@@ -96,7 +96,7 @@ def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service,
     assert checked(service.post(request={**REQUEST, "label": label}), 422).field == "label"
 
 
-def accept(engine: DbosJobEngine, tenant: str, root: str, job_id: str, label: str) -> None:
+def accept(engine: JobEngine, tenant: str, root: str, job_id: str, label: str) -> None:
     blob = StoredBlob(digest="0" * 64, media_type="application/json")
     jobs = engine.of(tenant, root)
     jobs.reserve(job_id, None)

@@ -16,7 +16,8 @@ from service.api.job_inputs import COPIED_AT_ONCE, Copy, File, Inputs, store_inp
 from service.api.problems import ProblemError
 from service.blobs import BlobsUnavailableError
 from service.blobs.local import LocalBlobStore
-from service.engine.port import StoredBlob, Submission, SubmitOutcome, TenantJobs
+from service.engine.port import StoredBlob, Submission, SubmitOutcome
+from service.engine.tenant_jobs import TenantJobs
 from service.process.data_folder import Disk
 
 JOB, FIT, OTHER = "0job", "1fit", "2fit"
