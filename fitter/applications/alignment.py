@@ -31,7 +31,7 @@ from jaxtyping import Float
 
 from fitter.applications.rig import Rig
 from fitter.arrays import Vector3
-from fitter.numerics.vectors import cross_products, unit_vectors
+from fitter.numerics.rotations import cross_products, unit_vectors
 
 STRAIGHT_LIMB_WEIGHT = 0.08
 """Of the direction a straight limb would bend, beside the squared sine of its bend: 16 degrees."""

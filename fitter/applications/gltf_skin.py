@@ -14,8 +14,7 @@ from jaxtyping import Float, Integer
 
 from fitter.applications.motion import MovingBody, unturned
 from fitter.arrays import Vertices
-from fitter.body.model import BodyModel
-from fitter.body.skeleton import global_rotations, regress
+from fitter.body.model import BodyModel, global_rotations, regress
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

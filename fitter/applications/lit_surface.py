@@ -12,7 +12,7 @@ from fitter.applications.seen_surface import (
     SurfacePoints,
     smooth_step,
 )
-from fitter.numerics.vectors import unit_vectors
+from fitter.numerics.rotations import unit_vectors
 from fitter.observation.colour import luminance_of
 from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson

@@ -16,8 +16,12 @@ from fitter.applications.rig import Rig, beyond_limits
 from fitter.arrays import Pose, Vector3
 from fitter.body.joint_limits import range_of, side_of
 from fitter.errors import InvalidInputError
-from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.numerics.vectors import cross_products, unit_vectors
+from fitter.numerics.rotations import (
+    cross_products,
+    rotation_matrices,
+    rotation_vectors,
+    unit_vectors,
+)
 
 REST = "rest"
 """The pose of the model's own mesh, with half-raised arms: rotations spelled out begin from it."""

@@ -6,10 +6,9 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Pose, Shape
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, regress
 from fitter.body.pose_prior import PosePrior, joint_angles, pose_prior
 from fitter.body.shape_space import rest_vertices
-from fitter.body.skeleton import regress
 
 LIMIT_TOLERANCE_DEG = 15.0
 """How far beyond the textbooks' ranges of motion (:mod:`fitter.body.joint_limits`) a part may be

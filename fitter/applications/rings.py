@@ -15,9 +15,8 @@ from jaxtyping import Bool, Float, Integer
 from fitter.applications.seen_surface import SurfacePoints
 from fitter.applications.surface_field import smooth_values
 from fitter.arrays import Vector3
-from fitter.body.model import BodyModel
-from fitter.body.skeleton import regress
-from fitter.numerics.vectors import unit_vectors
+from fitter.body.model import BodyModel, regress
+from fitter.numerics.rotations import unit_vectors
 
 _HAIRLINE = 0.5
 # Of the way from the eyes up to the crown.

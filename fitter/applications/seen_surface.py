@@ -11,7 +11,7 @@ from scipy import sparse
 from fitter.applications.loose_hair import loose_hair
 from fitter.arrays import GreyImage, Image, Mask, Points2D, Triangles, Vertices
 from fitter.evidence.sampling import sample
-from fitter.numerics.vectors import unit_vectors
+from fitter.numerics.rotations import unit_vectors
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, Rendering, render
 

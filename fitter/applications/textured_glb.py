@@ -8,7 +8,7 @@ from fitter.body.scape import CAMERA_AXES
 from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, pack_glb
 from fitter.export.gltf_mesh import add_body_mesh
-from fitter.export.gltf_pictured import pictured_document
+from fitter.export.gltf_scene import pictured_document
 from fitter.person.fitted_person import FittedPerson
 
 

@@ -20,7 +20,7 @@ from fitter.applications.seen_surface import (
 )
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
-from fitter.numerics.vectors import unit_vectors
+from fitter.numerics.rotations import unit_vectors
 
 Look = Callable[[SurfacePoints], tuple[Colours, Beliefs]]
 """Linear colours of points, and how far each is believed."""

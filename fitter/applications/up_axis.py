@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vector3
-from fitter.numerics.vectors import unit_vectors
+from fitter.numerics.rotations import unit_vectors
 from fitter.remarks import FitWarning
 
 Axis = Literal["y", "-y", "z", "-z", "x", "-x"]

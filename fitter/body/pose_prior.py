@@ -17,8 +17,7 @@ from jaxtyping import Float, Integer
 
 from fitter.arrays import Pose
 from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG, range_of, side_of
-from fitter.numerics.rotations import inverse_left_jacobians
-from fitter.numerics.vectors import cross_products, unit_vectors
+from fitter.numerics.rotations import cross_products, inverse_left_jacobians, unit_vectors
 
 _FORWARD = np.array([0.0, 0.0, 1.0])
 _UP = np.array([0.0, 1.0, 0.0])

@@ -4,9 +4,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape, Vertices
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, SparseRows, regress
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.stature import stature_m
 from fitter.errors import NumericalError
 from fitter.parameters import BodyParameters
 
@@ -68,3 +67,24 @@ def shape_with_height(evaluator: ScapeEvaluator, shape: Shape, height_m: float) 
     adjusted = shape.copy()
     adjusted[0] += (height_m - height) / slope
     return adjusted
+
+
+def stature_m(standing_vertices: Vertices, landmarks: SparseRows) -> float:
+    """Crown above the soles, metres.
+
+    Section 4 measures height on a mesh in a predefined standing pose. Landmarks are fixed weighted
+    sums of vertices, so this is linear in the shape where the highest and lowest vertex would not
+    be, and one axis of the shape space can carry it exactly.
+
+    Parameters
+    ----------
+    standing_vertices
+        (m, 3) the body in the model's ``standing_pose``, body frame (y up), metres.
+    landmarks
+        The model's landmark rows, with ``crown``, ``sole_left`` and ``sole_right``.
+    """
+    heights = regress(landmarks, standing_vertices)[:, 1]
+    crown, left, right = (
+        float(heights[landmarks.names.index(name)]) for name in ("crown", "sole_left", "sole_right")
+    )
+    return crown - 0.5 * (left + right)

@@ -13,10 +13,16 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Points3D, Rotations
-from fitter.body.model import BodyModel, SparseRows
+from fitter.body.model import (
+    BodyModel,
+    SparseRows,
+    dense_rows,
+    descendants,
+    global_rotations,
+    posed_joints,
+)
 from fitter.body.scape import CAMERA_AXES
 from fitter.body.shape_space import rest_combinations
-from fitter.body.skeleton import dense_rows, descendants, global_rotations, posed_joints
 from fitter.parameters import BodyParameters
 
 

@@ -3,18 +3,21 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fitter.capture.arms import arms
-from fitter.capture.camera_place import camera_distance_m, distance, lean_deg, roll
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.clothes import clothes
-from fitter.capture.exposure import brightness, darkness
 from fitter.capture.finding import Box, Code, Finding, Remark, Unchecked
-from fitter.capture.framing import picture_size, size, wholeness
-from fitter.capture.people import nobody_else, somebody
-from fitter.capture.posture import posture
-from fitter.capture.proportions import proportions
-from fitter.capture.sharpness import sharpness
-from fitter.capture.turning import announced_view, facing, seen_from
+from fitter.capture.framing import (
+    camera_distance_m,
+    distance,
+    lean_deg,
+    picture_size,
+    roll,
+    size,
+    wholeness,
+)
+from fitter.capture.people import nobody_else, proportions, somebody
+from fitter.capture.picture_quality import brightness, darkness, sharpness
+from fitter.capture.posture import announced_view, arms, facing, posture, seen_from
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 
 Check = Callable[[Capture], Remark | None]

@@ -1,15 +1,22 @@
-"""Whether the person stands: who sits, crouches, lies or bends over is not measured well."""
+"""Whether the person stands: who sits, crouches, lies or bends over is not measured well.
 
+A trunk's shoulders and hips are as broad in the picture as the cosine of how far it is turned;
+left and right are the person's own, so that the breadth of a trunk seen from behind is negative.
+Faces do not tell: the detector calls eyes visible from behind too.
+"""
+
+import math
 from typing import Final
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
-from fitter.capture.capture import Capture
+from fitter.arrays import Mask
+from fitter.capture.capture import Capture, Directions, Joints
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
-from fitter.capture.joints import Directions, Joints
 from fitter.detection.detector import DetectedBody
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 
 REMEDY: Final = "Have the person stand upright, with straight legs."
 
@@ -192,3 +199,152 @@ def _words(bent: float, knees: float, *, lies: bool, leaning: float) -> str:
     if knees >= BENT_DEG or bent < BENT_DEG:
         return "sits or crouches"
     return "bends over" if leaning > BENT_DEG else "sits or bends the hips"
+
+
+FRONTAL_BREADTHS = {"shoulder": 0.83, "hip": 0.46}
+"""Breadth of the detector's joints facing the camera, of the trunk's length."""
+
+LEAST_FRONTAL = 0.65
+"""Cosine from which a person faces the camera or turns their back to it: within 50 degrees."""
+
+MOST_LATERAL = 0.4
+"""Cosine up to which a person is seen from the side: within 24 degrees of profile."""
+
+_SAID = {
+    ViewKind.FRONT: "from the front",
+    ViewKind.SIDE: "from the side",
+    ViewKind.BACK: "from behind",
+}
+_TURN_DEG = {ViewKind.FRONT: 0, ViewKind.SIDE: 90, ViewKind.BACK: 180}
+
+
+def facing(capture: Capture) -> float | None:
+    """Cosine of how far the trunk is turned from the camera, in [-1, 1].
+
+    1 faces the camera, 0 is seen from the side, -1 from behind; None if a shoulder or a hip is
+    missing.
+    """
+    shoulders, hips = capture.middle("shoulder"), capture.middle("hip")
+    if shoulders is None or hips is None:
+        return None
+    length = float(np.linalg.norm(hips - shoulders))
+    if length == 0.0:
+        return None
+    down_x, down_y = (hips - shoulders) / length
+    cosines: list[float] = []
+    for pair, breadth in FRONTAL_BREADTHS.items():
+        across = capture.joints[f"left_{pair}"] - capture.joints[f"right_{pair}"]
+        cosines.append(float(across @ np.array([down_y, -down_x])) / length / breadth)
+    return max(-1.0, min(1.0, sum(cosines) / len(cosines)))
+
+
+def seen_from(cosine: float) -> SeenFrom:
+    """The view of a person who is turned by the arc of that cosine."""
+    if abs(cosine) <= MOST_LATERAL:
+        return SeenFrom.SIDE
+    if abs(cosine) < LEAST_FRONTAL:
+        return SeenFrom.BETWEEN
+    return SeenFrom.FRONT if cosine > 0.0 else SeenFrom.BACK
+
+
+def is_broadside(capture: Capture) -> bool:
+    """Whether the person is seen from the front or from behind."""
+    cosine = facing(capture)
+    return cosine is not None and abs(cosine) >= LEAST_FRONTAL
+
+
+def announced_view(capture: Capture) -> Remark | None:
+    """Whether the person is seen from where they are said to be."""
+    if capture.view is None or capture.view is ViewKind.OTHER:
+        return None
+    cosine = facing(capture)
+    if cosine is None:
+        return Unchecked(
+            code=Code.OTHER_VIEW, reason="Shoulders and hips are not all in the picture."
+        )
+    seen = seen_from(cosine)
+    if seen.value == capture.view.value:
+        return None
+    return Finding(
+        code=Code.OTHER_VIEW,
+        severity=Severity.HARMS if seen is SeenFrom.BETWEEN else Severity.BLOCKS,
+        reason=(
+            f"The person is to be seen {_SAID[capture.view]} and is turned from the camera by "
+            f"about {math.degrees(math.acos(cosine)):.0f} degrees, where "
+            f"{_TURN_DEG[capture.view]} are meant."
+        ),
+        remedy=f"Have the person turn until the camera sees them {_SAID[capture.view]}.",
+        points=("left_shoulder", "right_shoulder", "left_hip", "right_hip"),
+    )
+
+
+LEAST_FREE = 0.3
+"""Share of an arm below which it counts as lying against the trunk."""
+
+LEAST_GAP = 0.01
+"""Gap that can be seen, of the trunk's length: half a centimetre."""
+
+_SIDES = {"left": "right", "right": "left"}
+_UPPER_ARM, _FOREARM = np.linspace(0.5, 1.0, 6), np.linspace(0.1, 0.9, 8)
+"""Where along the bones the gap is looked for: below the armpit, and up to the wrist."""
+
+
+def arms(capture: Capture) -> Remark | None:
+    """Whether between trunk and arms, seen from the front or from behind, background shows."""
+    if capture.mask is None:
+        return Unchecked(
+            code=Code.ARMS_AGAINST_TRUNK, reason="Without a detector there is no outline."
+        )
+    if not is_broadside(capture):
+        return Unchecked(
+            code=Code.ARMS_AGAINST_TRUNK,
+            reason="Only from the front or from behind are arms seen beside the trunk.",
+        )
+    shares = {side: free_share(capture, capture.mask, side) for side in _SIDES}
+    against = {
+        side: share for side, share in shares.items() if share is not None and share < LEAST_FREE
+    }
+    if not against:
+        return None
+    said = " and ".join(f"{100.0 * share:.0f} % of the {side}" for side, share in against.items())
+    return Finding(
+        code=Code.ARMS_AGAINST_TRUNK,
+        severity=Severity.HARMS,
+        reason=(
+            f"Background shows between trunk and arm along {said} arm, from the armpit to the "
+            f"wrist, where {100.0 * LEAST_FREE:.0f} % is the least."
+        ),
+        remedy="Have the arms held away from the body, by a hand's breadth at the hips or more.",
+        points=tuple(f"{side}_{joint}" for side in against for joint in ("elbow", "wrist")),
+    )
+
+
+def free_share(capture: Capture, mask: Mask, side: str) -> float | None:
+    """Share of an arm that background separates from the trunk; None if a joint is missing."""
+    names = [f"{side}_{joint}" for joint in ("shoulder", "elbow", "wrist")]
+    shoulders, hips = capture.middle("shoulder"), capture.middle("hip")
+    if shoulders is None or hips is None or any(name not in capture.joints for name in names):
+        return None
+    shoulder, elbow, wrist = (capture.joints[name] for name in names)
+    length = float(np.linalg.norm(hips - shoulders))
+    if length == 0.0:
+        return None
+    along = (hips - shoulders) / length
+    places = [shoulder + share * (elbow - shoulder) for share in _UPPER_ARM]
+    places += [elbow + share * (wrist - elbow) for share in _FOREARM]
+    gaps = [
+        _gap(mask, place, shoulders + along * np.clip((place - shoulders) @ along, 0.0, length))
+        for place in places
+    ]
+    return float(np.mean([gap >= LEAST_GAP * length for gap in gaps]))
+
+
+def _gap(mask: Mask, start: Float[np.ndarray, "2"], end: Float[np.ndarray, "2"]) -> float:
+    """Length of the background between two places, pixels."""
+    distance = float(np.linalg.norm(end - start))
+    steps = 2 * int(distance) + 2
+    places = start + np.linspace(0.0, 1.0, steps)[:, None] * (end - start)
+    columns = np.clip(places[:, 0].astype(int), 0, mask.shape[1] - 1)
+    rows = np.clip(places[:, 1].astype(int), 0, mask.shape[0] - 1)
+    background: Bool[np.ndarray, " s"] = ~mask[rows, columns]
+    return distance * float(background.mean())

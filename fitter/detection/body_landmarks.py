@@ -7,9 +7,8 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage
-from fitter.detection.network import PictureNetwork
+from fitter.detection.network import PictureNetwork, SquareCrop
 from fitter.detection.person_detector import DetectedPerson
-from fitter.detection.square_crop import SquareCrop
 
 INPUT_SIZE = 256
 HEAT_MAP_SIZE = 64

@@ -17,9 +17,9 @@ from fitter.detection.landmark_meanings import (
     SEEN,
     SHOULDERS,
     SLANTS,
+    own_pixels,
     spread_m,
 )
-from fitter.detection.landmark_offsets import own_pixels
 from fitter.detection.network import Network
 from fitter.detection.person_detector import DetectedPerson, PersonDetector
 from fitter.detection.weights import checked_weights

@@ -3,11 +3,15 @@
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+import cv2
 import numpy as np
-from jaxtyping import Float32
+from jaxtyping import Float, Float32, UInt8
+
+from fitter.arrays import Points2D
 
 
 @runtime_checkable
@@ -74,3 +78,75 @@ def _standard_error_withheld() -> Iterator[None]:
     finally:
         os.dup2(kept, 2)
         os.close(kept)
+
+
+ANTIALIASED_FROM = 1.5
+"""The picture is blurred before cropping above this many picture pixels per crop pixel."""
+
+_BLUR_SHARE = 0.4
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SquareCrop:
+    """Where a square of the picture lies.
+
+    Attributes
+    ----------
+    centre
+        (2,) continuous pixels of the picture.
+    side
+        Length of a side, pixels of the picture.
+    angle
+        Clockwise rotation of the square in the picture, radians.
+    size
+        Side of the crop in its own pixels.
+    """
+
+    centre: Float[np.ndarray, "2"]
+    side: float
+    angle: float
+    size: int
+
+    @property
+    def scale(self) -> float:
+        """Picture pixels per crop pixel."""
+        return self.side / self.size
+
+    @property
+    def rotation(self) -> Float[np.ndarray, "2 2"]:
+        """From the crop's axes to the picture's."""
+        cosine, sine = np.cos(self.angle), np.sin(self.angle)
+        return np.array([[cosine, -sine], [sine, cosine]])
+
+    def in_picture(self, points: Points2D) -> Points2D:
+        """Continuous pixels of the crop as pixels of the picture."""
+        return self.centre + self.scale * (points - 0.5 * self.size) @ self.rotation.T
+
+    def cut_from(self, picture: UInt8[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "s s 3"]:
+        """The square's pixels; black outside the picture."""
+        if self.scale > ANTIALIASED_FROM:
+            blur = _BLUR_SHARE * np.sqrt(self.scale**2 - 1.0)
+            picture = cv2.GaussianBlur(picture, (0, 0), blur)
+        return cv2.warpAffine(
+            picture,
+            self._between_pixel_centres(),
+            (self.size, self.size),
+            flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        )
+
+    def put_back(
+        self, values: Float[np.ndarray, "s s"], *, width: int, height: int
+    ) -> Float[np.ndarray, "h w"]:
+        """Resample values of the crop onto a picture of this size; 0 outside the crop."""
+        return cv2.warpAffine(
+            values,
+            self._between_pixel_centres(),
+            (width, height),
+            flags=cv2.INTER_LINEAR,
+        )
+
+    def _between_pixel_centres(self) -> Float[np.ndarray, "2 3"]:
+        """From crop to picture in OpenCV's convention: the first pixel's centre is (0, 0)."""
+        turn = self.scale * self.rotation
+        first = self.in_picture(np.array([[0.5, 0.5]]))[0] - 0.5
+        return np.column_stack([turn, first])

@@ -6,8 +6,7 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from fitter.detection.network import PictureNetwork
-from fitter.detection.square_crop import SquareCrop
+from fitter.detection.network import PictureNetwork, SquareCrop
 
 INPUT_SIZE = 224
 STRIDES = (8, 16, 32, 32, 32)

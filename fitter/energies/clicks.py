@@ -11,7 +11,7 @@ from fitter.body.model import SparseRows
 from fitter.energies.rows import PositionRows, Support
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import huber, huber_weights
-from fitter.observation.click_spread import BODY_CLICK_SPREAD_M
+from fitter.observation.clicks import BODY_CLICK_SPREAD_M
 from fitter.render.camera import Camera
 from fitter.request import Click
 

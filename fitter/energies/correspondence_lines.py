@@ -7,7 +7,7 @@ order the contour moves along its normal as these do, so that the residual
 
 of the vertices' current midpoint x, the line's centre c, its normal n and the offset o found on it
 is the contour's distance from the boundary, and its derivative is exact. Lines are placed anew as
-the body moves (:mod:`fitter.optimizer.renewed_lines`). Where the boundary is that of loose clothes,
+the body moves (:mod:`fitter.optimizer.search`). Where the boundary is that of loose clothes,
 it bounds the body from outside (:mod:`fitter.energies.ease`).
 """
 

@@ -12,7 +12,7 @@ from jaxtyping import Float, Integer
 from fitter.arrays import Points3D, Vector3
 from fitter.energies.rows import PositionRows, Support
 from fitter.numerics.robust import huber, huber_weights
-from fitter.pose_init.limb_reaches import TRUNCATION
+from fitter.pose_init.limbs import TRUNCATION
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from fitter.arrays import Mask
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import sphere_positions
 from fitter.energies.picture import PictureEvidence, SeenBody

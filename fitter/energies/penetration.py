@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel, SparseRows
-from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres, squared_overlaps
+from fitter.energies._body_kernels import pair_overlaps, ring_spheres, squared_overlaps
 from fitter.energies.rows import PositionRows, Support
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.meshes import vertex_areas

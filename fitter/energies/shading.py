@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import PerVertex, Vector3
-from fitter.energies._shading_kernels import facing_camera
+from fitter.energies._picture_kernels import facing_camera
 from fitter.energies.rows import ShadingRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.intensity import IntensityMap

@@ -14,9 +14,13 @@ import cv2
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.energies._ease_kernels import clothed_mismatch
-from fitter.energies._silhouette_kernels import (
+from fitter.energies._picture_kernels import (
+    Clothes,
+    EaseCost,
+    Pixels,
+    RobustCost,
     bounding_box,
+    clothed_mismatch,
     nearest_within,
     robust_mismatch,
 )
@@ -46,30 +50,28 @@ def silhouette_energy(
 ) -> float:
     """E_Si in nats; pixels outside the picture do not count."""
     top, bottom, left, right = _common_box(rendering, evidence)
-    pixels = (
-        rendering.face_ids[top:bottom, left:right],
-        evidence.mask[top:bottom, left:right],
-        evidence.signed_distance[top:bottom, left:right],
-        evidence.confidence[top:bottom, left:right],
+    pixels = Pixels(
+        model=rendering.face_ids[top:bottom, left:right],
+        image=evidence.mask[top:bottom, left:right],
+        to_image=evidence.signed_distance[top:bottom, left:right],
+        confidence=evidence.confidence[top:bottom, left:right],
     )
     eta = scales.silhouette_eta
+    cost = RobustCost(scale=eta, floor=_FAR_COST * eta, reach=_FAR * eta)
     nats = 1.0 / (scales.silhouette_sigma**2 * scales.correlation_length)
     if evidence.cloth is None or evidence.fullness is None:
-        return nats * float(robust_mismatch(*pixels, eta, _FAR_COST * eta, _FAR * eta))
-    return float(
-        clothed_mismatch(
-            *pixels,
-            evidence.cloth[top:bottom, left:right],
-            evidence.fullness[top:bottom, left:right],
-            eta,
-            _FAR_COST * eta,
-            _FAR * eta,
-            nats,
-            scales.ease_mean,
-            scales.ease_reach,
-            1.0 / (scales.ease_spread**2 * scales.ease_correlation_length),
-        )
+        return nats * float(robust_mismatch(pixels, cost))
+    clothes = Clothes(
+        cloth=evidence.cloth[top:bottom, left:right],
+        fullness=evidence.fullness[top:bottom, left:right],
     )
+    ease_cost = EaseCost(
+        mean=scales.ease_mean,
+        reach=scales.ease_reach,
+        of_skin=nats,
+        of_ease=1.0 / (scales.ease_spread**2 * scales.ease_correlation_length),
+    )
+    return float(clothed_mismatch(pixels, clothes, cost, ease_cost))
 
 
 def silhouette_rows(

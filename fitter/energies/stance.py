@@ -27,7 +27,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points3D
-from fitter.energies import _stance_kernels as kernels
+from fitter.energies import _body_kernels as kernels
 from fitter.energies.rows import Nuisance, PositionRows, Support
 from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.vocabulary.choices import Posture

@@ -9,8 +9,7 @@ from scipy.special import ndtri
 
 from fitter.arrays import GreyImage, Mask, Points2D
 from fitter.evidence.sampling import sample
-from fitter.numerics.distance_map import exact_distances
-from fitter.numerics.windows import window_about
+from fitter.numerics.masks import exact_distances, window_about
 
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0

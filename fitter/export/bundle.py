@@ -1,9 +1,10 @@
 """Every file a fit gives back but the result itself."""
 
+import json
 from collections.abc import Sequence
 from functools import lru_cache
 
-from fitter.arrays import Vertices
+from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import png
@@ -17,6 +18,7 @@ from fitter.export.pictures import (
     trimap_levels,
 )
 from fitter.export.views import views_picture
+from fitter.measurement.anthropometry import MeasuringBody, tape_lines
 from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
 from fitter.observation.decoding import decode_picture
 from fitter.render.reflectance import shading_terms
@@ -131,3 +133,33 @@ def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, byte
     }
     pictures = vertex_pictures(list(values.values()), fine)
     return {name: png(picture) for name, picture in zip(values, pictures, strict=True)}
+
+
+DECIMALS = 4
+"""Of a metre: a tenth of a millimetre."""
+
+
+def tapes_json(result: FitResult, measuring: MeasuringBody) -> bytes:
+    """The lines of a fit's body; see :func:`tapes_of`."""
+    return tapes_of(result.canonical_vertices, result.person.body.shape, measuring)
+
+
+def tapes_of(canonical_vertices: Vertices, shape: Shape, measuring: MeasuringBody) -> bytes:
+    """Lines by the measurements' names, in the frame of ``body_canonical.glb`` (feet on y = 0).
+
+    Parameters
+    ----------
+    canonical_vertices
+        (m, 3) body frame, metres.
+    shape
+        (n,) coefficients of that body.
+    measuring
+        The body it was measured with.
+    """
+    lowest = float(canonical_vertices[:, 1].min())
+    lines = {
+        name: (line - [0.0, lowest, 0.0]).round(DECIMALS).tolist()
+        for name, line in tape_lines(measuring, shape).items()
+    }
+    document = {"frame": "metres, +y up", "lines": lines}
+    return json.dumps(document, separators=(",", ":")).encode()

@@ -6,17 +6,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fitter.arrays import Image, Points3D
-from fitter.capture.capture import Capture
+from fitter.capture.capture import Capture, Directions
 from fitter.capture.checking import Checked, check_capture
-from fitter.capture.joints import Directions
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.energies.objective import Candidate
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
 from fitter.fits.outlined import Outlined
 from fitter.fits.proposal import chosen_person
-from fitter.observation.clicks import check_places
+from fitter.observation.clicks import check_places, scaled_clicks
 from fitter.observation.colour import bytes_of_display
-from fitter.observation.completion import scaled_clicks
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import (
@@ -28,7 +26,7 @@ from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.observation.worn import WornRegion
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
-from fitter.segmentation.bone_parts import PART_NAMES, bone_parts, part_joints
+from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
 from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource

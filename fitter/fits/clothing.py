@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import GreyImage, Image
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import seen_vertices
 from fitter.evidence.intensity import IntensityMap

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vertices
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.reporting import AMBIGUOUS_NATS
 from fitter.observation.clicks import check_clicks, side_warnings
@@ -21,7 +21,7 @@ from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
 from fitter.pose_init.points import clicked_points
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
-from fitter.render.outline import outline_loops
+from fitter.render.contours import outline_loops
 from fitter.render.rasterizer import render
 from fitter.request import Person, View
 from fitter.vocabulary.choices import Facing

@@ -19,9 +19,7 @@ from fitter.fits.progress import Stage
 from fitter.fits.reporting import limb_facings
 from fitter.fits.stage_clock import ViewClock
 from fitter.observation.observation import Observation, observe
-from fitter.optimizer.hypotheses import try_hypotheses
-from fitter.optimizer.renewed_lines import with_lines_about
-from fitter.optimizer.search import body_search, limits_of
+from fitter.optimizer.search import body_search, limits_of, try_hypotheses, with_lines_about
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson
 from fitter.pose_init.initial_pose import initialize_pose

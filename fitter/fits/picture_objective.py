@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 
 from fitter.arrays import GreyImage
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.energies.clicks import click_evidence
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Objective
 from fitter.energies.picture import PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import scales_at
+from fitter.evidence.doubtful_outline import outline_confidence
 from fitter.evidence.edge_cost import edge_cost_map
-from fitter.evidence.outline_confidence import outline_confidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.clothing import dressed
 from fitter.fits.prepared_model import PreparedModel
@@ -25,8 +25,7 @@ from fitter.person.several_pictures import counted_as
 from fitter.population.known_person import KnownPerson
 from fitter.render.rasterizer import render
 from fitter.segmentation.bones import clicked_bones, foot_bones
-from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
-from fitter.segmentation.preference import preference
+from fitter.segmentation.grabcut import Segmentation, border_warnings, preference, segment
 from fitter.segmentation.trimap import (
     Trimap,
     first_band,

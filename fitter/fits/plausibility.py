@@ -14,7 +14,7 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
-from fitter.optimizer.renewed_lines import with_lines_about
+from fitter.optimizer.search import with_lines_about
 
 BEYOND_M = 0.1
 """What is taken for the person and lies farther than this from the body is none of its own: hair,

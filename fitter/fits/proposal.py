@@ -16,8 +16,8 @@ from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody, Detector
 from fitter.errors import InvalidInputError
 from fitter.fits.proposal_warnings import proposal_warnings
+from fitter.observation.clicks import scaled_clicks
 from fitter.observation.colour import bytes_of_display
-from fitter.observation.completion import scaled_clicks
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.resampling import (
     WorkingSize,

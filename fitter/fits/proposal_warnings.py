@@ -3,9 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
-from fitter.capture.capture import MASK_LEVEL
+from fitter.capture.capture import MASK_LEVEL, joints_of, stature_px
 from fitter.capture.framing import LEAST_STATURE_PX, points_beyond
-from fitter.capture.joints import joints_of, stature_px
 from fitter.detection.detector import DetectedBody
 from fitter.remarks import FitWarning
 from fitter.request import Click

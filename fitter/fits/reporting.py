@@ -13,7 +13,7 @@ import numpy as np
 from fitter.fits.foretold import Foretold
 from fitter.measurement.quantity import INTERVAL_SD
 from fitter.numerics.rotations import rotation_matrices
-from fitter.optimizer.hypotheses import TriedHypotheses
+from fitter.optimizer.search import TriedHypotheses
 from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import CombinedShape
 from fitter.pose_init.initial_pose import PoseHypothesis

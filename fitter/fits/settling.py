@@ -13,7 +13,7 @@ from fitter.fits.plausibility import plausibility
 from fitter.fits.reporting import outcome_of
 from fitter.fits.search import Found, LitView
 from fitter.fits.worn_clothing import clothes_are_guessed, with_ease
-from fitter.optimizer.albedo_colour import albedo_rgb
+from fitter.optimizer.hidden_reflectance import albedo_rgb
 from fitter.optimizer.uncertainty import Certainty, camera_tilt, certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
 from fitter.result import PictureFit

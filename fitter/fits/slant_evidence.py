@@ -7,7 +7,7 @@ from fitter.energies.limb_slants import SlantEvidence
 from fitter.fits.prepared_model import PreparedModel
 from fitter.observation.observation import Observation
 from fitter.pose_init.landmark_rig import landmark_rig
-from fitter.pose_init.limb_reaches import limb_reaches
+from fitter.pose_init.limbs import limb_reaches
 
 
 def limb_slants(

@@ -15,8 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import GreyImage
-from fitter.body.model import BodyModel
-from fitter.body.skeleton import regress
+from fitter.body.model import BodyModel, regress
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions
 

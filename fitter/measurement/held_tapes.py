@@ -15,8 +15,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
-from fitter.measurement._contour_kernels import STEEPEST
-from fitter.measurement._held_kernels import crossings
+from fitter.measurement._contour_kernels import STEEPEST, crossings
 from fitter.measurement.contour import Leg, Side, leg_frame
 from fitter.measurement.definitions import (
     BackContour,

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Points3D, Vector3, Vertices
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.measurement.affine_body import AffineBody
 from fitter.measurement.anthropometry import MeasuringBody, measurement_values
 from fitter.numerics.meshes import vertex_areas

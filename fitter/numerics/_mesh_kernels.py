@@ -1,5 +1,6 @@
 """Compiled loops over triangles; the wrappers in :mod:`fitter.numerics.meshes` carry the shapes."""
 
+from math import sqrt
 from typing import no_type_check
 
 import numpy as np
@@ -37,3 +38,116 @@ def tetrahedra_gradient(vertices, triangles):
                     vertices[a, i] * vertices[b, j] - vertices[a, j] * vertices[b, i]
                 ) / 6.0
     return gradient
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def accumulate_normals(vertices, triangles, result):
+    """Sum of the cross products of the triangles round each vertex (twice area times normal)."""
+    result[:] = 0.0
+    for t in range(len(triangles)):
+        a, b, c = triangles[t]
+        ux = vertices[b, 0] - vertices[a, 0]
+        uy = vertices[b, 1] - vertices[a, 1]
+        uz = vertices[b, 2] - vertices[a, 2]
+        vx = vertices[c, 0] - vertices[a, 0]
+        vy = vertices[c, 1] - vertices[a, 1]
+        vz = vertices[c, 2] - vertices[a, 2]
+        x = uy * vz - uz * vy
+        y = uz * vx - ux * vz
+        z = ux * vy - uy * vx
+        for corner in (a, b, c):
+            result[corner, 0] += x
+            result[corner, 1] += y
+            result[corner, 2] += z
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def pull_back_normals(vertices, triangles, pointers, rings, chosen, by_normal, result):
+    """Add the derivative by vertices of a scalar known by its derivative by some unit normals.
+
+    With S = Σ u × v over a vertex' ring, a derivative g by the unit normal n = S / |S| is
+    q = (g - (g . n) n) / |S| by S, and of every cross product v × q by u and q × u by v.
+    """
+    for i in range(len(chosen)):
+        vertex = chosen[i]
+        sx = sy = sz = 0.0
+        for r in range(pointers[vertex], pointers[vertex + 1]):
+            t = rings[r]
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            ux, uy, uz = (
+                vertices[b, 0] - vertices[a, 0],
+                vertices[b, 1] - vertices[a, 1],
+                vertices[b, 2] - vertices[a, 2],
+            )
+            vx, vy, vz = (
+                vertices[c, 0] - vertices[a, 0],
+                vertices[c, 1] - vertices[a, 1],
+                vertices[c, 2] - vertices[a, 2],
+            )
+            sx += uy * vz - uz * vy
+            sy += uz * vx - ux * vz
+            sz += ux * vy - uy * vx
+        length = sqrt(sx * sx + sy * sy + sz * sz)
+        if length == 0.0:
+            continue
+        sx, sy, sz = sx / length, sy / length, sz / length
+        gx, gy, gz = by_normal[i, 0], by_normal[i, 1], by_normal[i, 2]
+        along = gx * sx + gy * sy + gz * sz
+        qx, qy, qz = (
+            (gx - along * sx) / length,
+            (gy - along * sy) / length,
+            (gz - along * sz) / length,
+        )
+        for r in range(pointers[vertex], pointers[vertex + 1]):
+            t = rings[r]
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            # By u = b - a and v = c - a; a takes what both leave, q × (c - b).
+            ux, uy, uz = (
+                vertices[b, 0] - vertices[a, 0],
+                vertices[b, 1] - vertices[a, 1],
+                vertices[b, 2] - vertices[a, 2],
+            )
+            vx, vy, vz = (
+                vertices[c, 0] - vertices[a, 0],
+                vertices[c, 1] - vertices[a, 1],
+                vertices[c, 2] - vertices[a, 2],
+            )
+            bx, by, bz = vy * qz - vz * qy, vz * qx - vx * qz, vx * qy - vy * qx
+            cx, cy, cz = qy * uz - qz * uy, qz * ux - qx * uz, qx * uy - qy * ux
+            result[b, 0] += bx
+            result[b, 1] += by
+            result[b, 2] += bz
+            result[c, 0] += cx
+            result[c, 1] += cy
+            result[c, 2] += cz
+            result[a, 0] -= bx + cx
+            result[a, 1] -= by + cy
+            result[a, 2] -= bz + cz
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def change_of_normals(vertices, triangles, pointers, rings, chosen, moves, result):
+    """Change of the summed cross products at chosen vertices for n fields of motion."""
+    n = moves.shape[0]
+    result[:] = 0.0
+    u = np.empty(3)
+    v = np.empty(3)
+    for i in range(len(chosen)):
+        vertex = chosen[i]
+        for r in range(pointers[vertex], pointers[vertex + 1]):
+            a, b, c = triangles[rings[r]]
+            for k in range(3):
+                u[k] = vertices[b, k] - vertices[a, k]
+                v[k] = vertices[c, k] - vertices[a, k]
+            for j in range(n):
+                for k in range(3):
+                    k1 = (k + 1) % 3
+                    k2 = (k + 2) % 3
+                    du1 = moves[j, b, k1] - moves[j, a, k1]
+                    du2 = moves[j, b, k2] - moves[j, a, k2]
+                    dv1 = moves[j, c, k1] - moves[j, a, k1]
+                    dv2 = moves[j, c, k2] - moves[j, a, k2]
+                    result[i, j, k] += du1 * v[k2] - du2 * v[k1] + u[k1] * dv2 - u[k2] * dv1

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Normals, Triangles, Vertices
-from fitter.numerics._normal_kernels import (
+from fitter.numerics._mesh_kernels import (
     accumulate_normals,
     change_of_normals,
     pull_back_normals,

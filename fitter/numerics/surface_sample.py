@@ -2,16 +2,20 @@
 
 Meshes of people are ten times denser on head, hands and feet than on the trunk; a field over the
 surface that is smooth at the trunk's scale needs no more points there than elsewhere.
+
+It is the costly part of such a factorisation and does not depend on values: it is found once for a
+mesh, and any part of the mesh keeps it.
 """
 
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
 import numpy as np
+import qdldl
 from jaxtyping import Float, Integer
+from scipy import sparse
 
 from fitter.arrays import PerVertex, Vertices
-from fitter.numerics.elimination import elimination_order
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -103,3 +107,19 @@ def _neighbours(
         found[first].append((second, length))
         found[second].append((first, length))
     return found
+
+
+def elimination_order(edges: Integer[np.ndarray, "e 2"], count: int) -> Integer[np.ndarray, " m"]:
+    """The vertices of a graph in an order in which a factor stays sparse (minimum degree)."""
+    low, high = np.sort(edges, axis=1).T
+    every = np.arange(count)
+    degrees = np.bincount(edges.reshape(-1), minlength=count) + 1.0
+    matrix = sparse.csc_matrix(
+        (
+            np.concatenate([degrees, np.full(len(edges), -1.0)]),
+            (np.concatenate([every, low]), np.concatenate([every, high])),
+        ),
+        shape=(count, count),
+    )
+    _, _, order = qdldl.Solver(matrix, upper=True).factors()
+    return np.asarray(order, dtype=np.int64)

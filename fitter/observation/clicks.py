@@ -1,12 +1,53 @@
-"""The clicked points: which are enough, where they may lie, and whether left and right agree."""
+"""The clicked points: which are enough, where they may lie, and whether left and right agree.
+
+A hand on the mouse is off by 2 to 3 pixels where a person fills most of a 640 x 480 picture, about
+a centimetre on the body. What people understand by a point adds to that, and differs by landmark:
+an eye is unambiguous, but a hip is clicked anywhere between the joint and the hip's bulge, and the
+top of a head under hair is a guess. Trusting all clicks equally turns the trunk by tens of degrees
+to explain hips clicked a little wide or narrow.
+"""
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
+from fitter.detection.detector import DetectedBody
 from fitter.errors import InvalidInputError
-from fitter.remarks import FitWarning
+from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
 from fitter.vocabulary.points import CLEAR_BREADTH, PointFault, place_faults, shortage
+
+DEFAULT_SPREAD_M = 0.015
+SPREADS_M: Mapping[str, float] = {
+    "left_hip": 0.025,
+    "right_hip": 0.025,
+    "left_shoulder": 0.02,
+    "right_shoulder": 0.02,
+    "neck": 0.03,
+    "head_top": 0.03,
+    "left_toe": 0.02,
+    "right_toe": 0.02,
+}
+"""Standard deviations in each direction of the picture, metres, where clicks are all there is.
+Others have the default."""
+
+BODY_CLICK_SPREAD_M = 0.02
+"""The same for every click once a body is fitted to the picture, which says more: people differ by
+as much in where a joint is. With the table above here too, the mean error of waists of the tuning
+half is 2.5 cm instead of 2.3, of chests of 16 foreign bodies 3.9 instead of 4.1: no clear gain."""
+
+OCCLUDED_FACTOR = 3.0
+"""How much less the click of a hidden point is trusted."""
+
+
+def click_spread_m(name: str, click: Click) -> float:
+    """Standard deviation of a point in each direction of the picture, metres on the body.
+
+    A proposed point brings its own, which already allows for its being hidden.
+    """
+    if click.spread_m is not None:
+        return click.spread_m
+    return SPREADS_M.get(name, DEFAULT_SPREAD_M) * (OCCLUDED_FACTOR if click.occluded else 1.0)
 
 
 def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> None:
@@ -117,3 +158,54 @@ def _seen_from_front(
     down_x, down_y = trunk[0] / length, trunk[1] / length
     across = (left.x - right.x) * down_y - (left.y - right.y) * down_x
     return across > 0.0 if abs(across) >= breadth else None
+
+
+def completed_clicks(
+    clicks: Mapping[str, Click], detected: DetectedBody | None
+) -> dict[str, Click]:
+    """The clicks, and proposals for the missing points; all in pixels of the same picture.
+
+    Raises
+    ------
+    InvalidInputError
+        ``person-not-found`` if nobody was detected where the clicks are.
+    """
+    if detected is None:
+        where = "in the picture" if not clicks else "where the points lie"
+        raise InvalidInputError(
+            code="person-not-found",
+            field="points",
+            reason=f"No person was found {where}, so that no points can be proposed.",
+            remedy="Click the points, or send a picture that shows the whole person.",
+        )
+    return {**detected.points, **clicks}
+
+
+def proposal_assumptions(
+    clicks: Mapping[str, Click], completed: Mapping[str, Click]
+) -> tuple[Assumption, ...]:
+    """Report that points were proposed, and which."""
+    proposed = [
+        name
+        for name, click in completed.items()
+        if name not in clicks or click.spread_m is not None
+    ]
+    if not proposed:
+        return ()
+    return (
+        Assumption(
+            quantity="points",
+            value=", ".join(proposed),
+            reason=(
+                "Nobody clicked them: they are where a detector proposes them, and less sure than "
+                "clicks."
+            ),
+        ),
+    )
+
+
+def scaled_clicks(clicks: Mapping[str, Click], scale: float) -> dict[str, Click]:
+    """The clicks in a picture ``scale`` times as large."""
+    return {
+        name: replace(click, x=click.x * scale, y=click.y * scale) for name, click in clicks.items()
+    }

@@ -14,13 +14,15 @@ from fitter.detection.detector import (
     is_somebody_at,
 )
 from fitter.errors import InvalidInputError
-from fitter.observation.clicks import check_clicks, check_places, side_warnings
-from fitter.observation.colour import bytes_of_display, luminance_of
-from fitter.observation.completion import (
+from fitter.observation.clicks import (
+    check_clicks,
+    check_places,
     completed_clicks,
     proposal_assumptions,
     scaled_clicks,
+    side_warnings,
 )
+from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.decoding import decode_coverage, decode_picture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import (

@@ -15,7 +15,7 @@ from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
-from fitter.numerics.mesh_parts import grown, mesh_part
+from fitter.numerics.mesh_topology import grown, mesh_part
 from fitter.numerics.surface_sample import SurfaceSample
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.hidden_reflectance import HiddenVertices
@@ -31,8 +31,8 @@ from fitter.optimizer.reflectance_solve import (
     ReflectanceSolver,
 )
 from fitter.optimizer.search import BodySearch
-from fitter.optimizer.whole_body import on_whole_body
 from fitter.parameters import Light, Reflectance
+from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms
 
 SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
@@ -302,3 +302,34 @@ def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Floa
     first, second = edges.T
     lengths = np.linalg.norm(vertices[first] - vertices[second], axis=1)
     return np.maximum(lengths / lengths.mean(), 0.05)
+
+
+def on_whole_body(
+    objective: Objective, candidate: Candidate, state: ShadingEvidence
+) -> tuple[Objective, Candidate, ShadingEvidence]:
+    """The same body on all of its vertices, with the objective's operators and the shading state.
+
+    Vertices that the search left out have no area: they take no part, and are filled in at the
+    end. Of the objective and the candidate only what shading reads is exchanged: operators,
+    vertices and rendering. Where the search was on the whole body, all is returned as it is.
+    """
+    whole = objective.operators.whole
+    if whole is None:
+        return objective, candidate, state
+    lifted = whole.lighter.lifted
+    vertices = whole.operators.evaluator.vertices(candidate.parameters)
+    rendering = render(vertices, whole.operators.model.triangles, candidate.rendering.camera)
+    return (
+        replace(objective, operators=whole.operators),
+        replace(candidate, vertices=vertices, rendering=rendering),
+        replace(
+            state,
+            reflectance=replace(
+                state.reflectance,
+                albedo=lifted(state.reflectance.albedo),
+                specularity=lifted(state.reflectance.specularity),
+            ),
+            vertex_areas=whole.operators.shaded.areas,
+            shadowed=lifted(state.shadowed),
+        ),
+    )

@@ -15,10 +15,44 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape
+from fitter.body.scape import BodyDerivative, increment
 from fitter.energies.attributes import Attributes
 from fitter.errors import NumericalError
-from fitter.optimizer.parameter_vector import moved
 from fitter.parameters import BodyParameters
+
+# Longest single step: beyond it the linearisation means nothing.
+_LONGEST_TURN = 0.35
+_LONGEST_MOVE_M = 0.25
+_LONGEST_SHAPE = 1.5
+
+
+def moved(parameters: BodyParameters, step: Float[np.ndarray, " columns"]) -> BodyParameters:
+    """Apply a vector of increments."""
+    pose, translation, shape = _split(parameters, step)
+    return increment(parameters, pose=pose, translation=translation, shape=shape)
+
+
+def as_vector(derivative: BodyDerivative) -> Float[np.ndarray, " columns"]:
+    """A derivative in the order of the vector."""
+    return np.concatenate([derivative.pose.ravel(), derivative.translation, derivative.shape])
+
+
+def excess(parameters: BodyParameters, step: Float[np.ndarray, " columns"]) -> float:
+    """The length of a step as a share of the longest whose linearisation still holds."""
+    pose, translation, shape = _split(parameters, step)
+    return max(
+        float(np.linalg.norm(pose, axis=1).max()) / _LONGEST_TURN,
+        float(np.linalg.norm(translation)) / _LONGEST_MOVE_M,
+        float(np.abs(shape).max()) / _LONGEST_SHAPE,
+    )
+
+
+def _split(
+    parameters: BodyParameters, step: Float[np.ndarray, " columns"]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    count = parameters.pose.size
+    return step[:count].reshape(-1, 3), step[count : count + 3], step[count + 3 :]
+
 
 HELD_WITHIN = 1e-3
 """Tolerance of held attributes, centimetres or kilograms."""

@@ -13,9 +13,8 @@ import numpy as np
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Body, EnergyObserver
 from fitter.numerics.damped_descent import Offer, descend
-from fitter.optimizer.free_space import free_space
+from fitter.optimizer.free_space import excess, free_space
 from fitter.optimizer.joint_equations import joint_equations
-from fitter.optimizer.parameter_vector import excess
 
 SETTLED_NATS = 0.05
 """A step that promises less is not tried, and two in a row that gain less end the search. A tenth

@@ -11,7 +11,11 @@ import qdldl
 from jaxtyping import Bool, Float, Integer
 from scipy import sparse
 
-from fitter.arrays import PerVertex
+from fitter.arrays import Image, PerVertex, Vertices
+from fitter.energies.objective import Candidate
+from fitter.energies.shading import seen_vertices
+from fitter.evidence.intensity import IntensityMap
+from fitter.evidence.sampling import sample
 
 # Ties components without any known vertex to the mean of the known values.
 _RIDGE = 1e-6
@@ -103,3 +107,32 @@ class HiddenVertices:
         pull = self.border @ kept + self.ridges * rest
         kept[self.unknown] = self.solver.solve(pull)
         return kept
+
+
+_LEAST_LUMINANCE = 1e-3
+_STRONGEST_HUE = 4.0
+"""Limit as a multiple of luminance: blue weighs only 0.07 in it, so noise would tint dark blue."""
+
+
+def albedo_rgb(
+    candidate: Candidate,
+    albedo: PerVertex,
+    linear_rgb: Image,
+    intensity: IntensityMap,
+    hidden: HiddenVertices,
+) -> Vertices:
+    """Linear RGB albedo (m, 3): the albedo with the picture's hue, carried on to hidden vertices.
+
+    The light is taken as white: a coloured light colours the albedo.
+    """
+    seen = seen_vertices(candidate.rendering, intensity)
+    points = candidate.rendering.projected[seen]
+    luminance = np.maximum(intensity.at(points), _LEAST_LUMINANCE)
+    rgb = np.empty((len(albedo), 3))
+    for channel in range(3):
+        there = sample(np.ascontiguousarray(linear_rgb[..., channel]), points)[0]
+        hue = np.zeros(len(albedo))
+        hue[seen] = np.clip(there / luminance, 0.0, _STRONGEST_HUE)
+        # Vertices in a shadow have a hue, though their brightness says nothing.
+        rgb[:, channel] = albedo * np.where(seen, hue, hidden.filled(hue))
+    return np.maximum(rgb, 0.0)

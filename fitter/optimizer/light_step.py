@@ -8,7 +8,7 @@ from jaxtyping import Float
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
-from fitter.numerics.mesh_parts import grown
+from fitter.numerics.mesh_topology import grown
 from fitter.optimizer.light_solve import (
     estimate_light,
     first_light,

@@ -8,7 +8,7 @@ from jaxtyping import Float
 from fitter.arrays import Vector3
 from fitter.optimizer import _light_kernels as kernels
 from fitter.parameters import Light
-from fitter.render.light import direction_derivatives, direction_to_light, light_position
+from fitter.render.reflectance import direction_derivatives, direction_to_light, light_position
 from fitter.vocabulary.choices import LightKind
 
 

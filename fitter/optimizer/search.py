@@ -4,8 +4,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from fitter.arrays import Image
 from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Body, EnergyObserver
+from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
+from fitter.evidence.correspondence_lines import correspondence_lines
+from fitter.evidence.loose_outline import LooseOutline
 from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum, minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.vocabulary.choices import OptimizerKind
@@ -92,4 +95,87 @@ def body_search(
         max_evaluations=max_evaluations,
         on_energies=on_energies,
         settled_nats=settled_nats,
+    )
+
+
+def with_lines_about(objective: Objective, body: Body, display: Image) -> Objective:
+    """The objective with lines placed across the contour of a body near the person.
+
+    ``display`` (h, w, 3) holds the picture's display values in [0, 1].
+    """
+    seen = objective.see(body)
+    silhouette = objective.evidence.silhouette
+    clothes = None
+    if silhouette.cloth is not None and silhouette.fullness is not None:
+        clothes = LooseOutline(
+            mask=silhouette.mask, cloth=silhouette.cloth, fullness=silhouette.fullness
+        )
+    return objective.with_lines(
+        correspondence_lines(seen.rendering, seen.edges, display, silhouette.confidence, clothes)
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriedHypotheses:
+    """Where the searches ended, in the order of the hypotheses, compared under one objective.
+
+    Attributes
+    ----------
+    totals
+        The energy of each end, nats. The bodies are not kept: a rendering takes 3 MB.
+    best
+        Index of the best among those searched further.
+    winner
+        Where its search ended.
+    evaluations
+        True energies computed.
+    """
+
+    totals: tuple[float, ...]
+    best: int
+    winner: Candidate
+    evaluations: int
+
+
+def try_hypotheses(
+    wide: JointObjective,
+    sharp: JointObjective,
+    starts: Sequence[Body],
+    *,
+    trial: BodySearch,
+    contenders: int,
+    hopeless_nats: float,
+    contest: BodySearch,
+) -> TriedHypotheses:
+    """Search one picture from each start, search further from the best results, and compare.
+
+    Parameters
+    ----------
+    wide
+        Objective with a boundary that pulls from afar: what the searches minimise.
+    sharp
+        Objective with one that rejects what is far: what the results are compared by.
+    starts
+        Bodies to begin with.
+    trial
+        The search from each start.
+    contenders, hopeless_nats
+        How many of the best results go on at most; only those less than so far above the best do.
+    contest
+        The search from those, where there are several.
+    """
+    found = [trial(wide, [start]) for start in starts]
+    evaluations = sum(minimum.evaluations for minimum in found)
+    by_energy = sorted(range(len(found)), key=lambda index: found[index].candidate.total)
+    bound = found[by_energy[0]].candidate.total + hopeless_nats
+    contending = [index for index in by_energy[:contenders] if found[index].candidate.total < bound]
+    # One alone has nothing to win: whoever searches on from it does so with a sharper objective.
+    for index in contending if len(contending) > 1 else ():
+        found[index] = contest(wide, found[index].candidate.views)
+        evaluations += found[index].evaluations
+    totals = tuple(sharp.evaluate(minimum.candidate.views).total for minimum in found)
+    best = min(contending, key=lambda index: totals[index])
+    (winner,) = found[best].candidate.views
+    return TriedHypotheses(
+        totals=totals, best=best, winner=winner, evaluations=evaluations + len(totals)
     )

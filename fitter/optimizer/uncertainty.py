@@ -20,8 +20,12 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import height_extrapolation
 from fitter.energies.stance import stance_rows
 from fitter.optimizer.free_space import FreeSpace, free_space
-from fitter.optimizer.normal_equations import normal_equations, support_points
-from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance
+from fitter.optimizer.normal_equations import (
+    RowsWithNuisance,
+    normal_equations,
+    nuisance_covariance,
+    support_points,
+)
 from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.parameters import CameraTilt
 from fitter.vocabulary.choices import ClothedRegion

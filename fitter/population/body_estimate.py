@@ -11,8 +11,7 @@ from fitter.energies.priors import height_extrapolation
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import INTERVAL_SD, Measurement
 from fitter.population.known import conditioned_population
-from fitter.population.measured_population import MeasuredPopulation
-from fitter.population.unusual_height import height_warnings
+from fitter.population.measured_population import MeasuredPopulation, height_warnings
 from fitter.remarks import FitWarning
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE

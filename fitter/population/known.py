@@ -18,7 +18,7 @@ CENTIMETRES_PER_METRE = 100.0
 RAREST_SD = 5.0
 """One person in two million is farther from the population's mean in a measurement, and the model,
 learned from a thousand people, knows nothing about such shapes. Heights are an exception: all have
-one, and what an unusual one costs is told (:mod:`fitter.population.unusual_height`)."""
+one, and what an unusual one costs is told (:mod:`fitter.population.measured_population`)."""
 
 _RAREST_SHARE = 5.733e-7
 """The share of people beyond that on either side; combined measurements are judged by it too."""

@@ -12,8 +12,7 @@ from fitter.energies.attributes import NOTHING_KNOWN, Attributes, KnownAttribute
 from fitter.observation.subject import subject_height
 from fitter.optimizer.free_space import held_shape
 from fitter.population.known import conditioned_population
-from fitter.population.measured_population import MeasuredPopulation
-from fitter.population.unusual_height import height_warnings
+from fitter.population.measured_population import MeasuredPopulation, height_warnings
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import KnownMeasurement, Person
 from fitter.vocabulary.measurements import STATURE

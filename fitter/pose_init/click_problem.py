@@ -16,12 +16,11 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from fitter.arrays import Vector3
+from fitter.body.model import descendants
 from fitter.body.pose_prior import PosePrior
-from fitter.body.skeleton import descendants
 from fitter.detection.detector import DetectedSlants
 from fitter.pose_init.landmark_rig import LandmarkRig
-from fitter.pose_init.limb_reaches import limb_reaches
-from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
+from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_reaches, limb_slant
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Facing

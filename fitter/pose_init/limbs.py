@@ -4,15 +4,29 @@ Section 3.1: limb lengths are not asked for but predicted, as linear combination
 the mean person of the given gender and height. A limb here runs between two clickable landmarks.
 The trunk is one limb from the middle of the hips to the middle of the shoulders, with two
 cross-pieces, the hip line and the shoulder line, whose slant is its rotation about the long axis.
+
+A limb of length L at depth z, slanted by an angle a to the image plane, spans about f L cos(a) / z
+pixels. So f L / (image length) = z / cos(a) is at least the depth: every limb gives an upper
+bound, and the smallest bound is the tightest, reached when its limb is parallel. The paper says
+that the chosen limb *minimises* the ratio between its image length and its actual length; that
+limb would be the most foreshortened one and its bound the loosest. We assume that the opposite was
+meant: the limb that **maximises image length / actual length**.
+
+Taking a maximum over noisy ratios favours whichever limb has an error upwards, short limbs most.
+Each ratio is therefore lowered by its own uncertainty before they are compared.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
+from fitter.arrays import Vector3
+from fitter.detection.detector import DetectedSlants
+from fitter.observation.clicks import DEFAULT_SPREAD_M
 from fitter.pose_init.landmark_rig import LandmarkRig
+from fitter.render.camera import Camera
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,3 +131,98 @@ def limb_slant(limb: Limb, names: tuple[str, ...]) -> Float[np.ndarray, " k"]:
 def landmarks_of(point: str) -> tuple[str, ...]:
     """The landmarks a limb's end is made of."""
     return MIDDLES.get(point, (point,))
+
+
+LIMB_LENGTH_SPREAD = 0.04
+"""Relative standard deviation of a limb's length among people of one gender and height."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReferenceLimb:
+    """The chosen limb and its image length over its actual length, pixels per metre."""
+
+    limb: Limb
+    scale: float
+
+
+def reference_limb(
+    ends: Mapping[str, Float[np.ndarray, "2"]],
+    lengths_m: Mapping[str, float],
+    *,
+    candidates: Sequence[str],
+) -> ReferenceLimb:
+    """Pick the limb most parallel to the image plane.
+
+    Parameters
+    ----------
+    ends
+        Pixels of limb ends by point name.
+    lengths_m
+        Limb lengths by limb name.
+    candidates
+        Names of limbs with both ends seen; at least one.
+    """
+    best: ReferenceLimb | None = None
+    best_bound = -np.inf
+    for limb in LIMBS:
+        if limb.name not in candidates:
+            continue
+        length = lengths_m[limb.name]
+        scale = float(np.linalg.norm(ends[limb.distal] - ends[limb.proximal])) / length
+        spread = np.hypot(LIMB_LENGTH_SPREAD, np.sqrt(2.0) * DEFAULT_SPREAD_M / length)
+        bound = scale * (1.0 - spread)
+        if bound > best_bound:
+            best, best_bound = ReferenceLimb(limb=limb, scale=scale), bound
+    if best is None:
+        message = "reference_limb needs at least one candidate"
+        raise ValueError(message)
+    return best
+
+
+TRUNCATION = 1.5
+"""Standard deviations beyond which a slant is trusted less and less: one in twenty is wrong."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LimbReaches:
+    """How much farther along the view the far ends of limbs lie than the near ones.
+
+    Attributes
+    ----------
+    limbs
+        s limbs, both of whose ends are known points.
+    toward
+        (3,) unit vector from the camera to the person, camera frame.
+    reach_m, sigma_m
+        (s,) how much farther, and its standard deviation, metres.
+    """
+
+    limbs: tuple[Limb, ...]
+    toward: Vector3
+    reach_m: Float[np.ndarray, " s"]
+    sigma_m: Float[np.ndarray, " s"]
+
+
+def limb_reaches(
+    slants: DetectedSlants,
+    rig: LandmarkRig,
+    camera: Camera,
+    *,
+    points: Collection[str],
+    without: Container[str] = (),
+) -> LimbReaches:
+    """Reaches of the limbs of a rig whose two ends are among ``points``, but for some by name."""
+    limbs = tuple(
+        limb
+        for limb in map(limb_named, slants.limbs)
+        if limb.name not in without and limb.proximal in points and limb.distal in points
+    )
+    lengths = limb_lengths_m(rig)
+    told = [(slants.limbs[limb.name], lengths[limb.name]) for limb in limbs]
+    ray = camera.rays(slants.middle)
+    return LimbReaches(
+        limbs=limbs,
+        toward=ray / np.linalg.norm(ray),
+        reach_m=np.array([length * slant.sine for slant, length in told]),
+        sigma_m=np.array([length * slant.sigma for slant, length in told]),
+    )

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points2D
-from fitter.observation.click_spread import click_spread_m
+from fitter.observation.clicks import click_spread_m
 from fitter.request import Click
 
 

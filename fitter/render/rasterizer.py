@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.arrays import GreyImage, Mask, Normals, Triangles, Vertices
+from fitter.arrays import GreyImage, Mask, Normals, PerVertex, Triangles, Vertices
 from fitter.render import _kernels
 from fitter.render.camera import Camera
 
@@ -109,4 +109,18 @@ def render(vertices: Vertices, triangles: Triangles, camera: Camera) -> Renderin
         inverse_depth=inverse_depth,
         projected=projected,
         front_facing=front_facing,
+    )
+
+
+def shade_image(
+    rendering: Rendering, values_per_vertex: PerVertex, *, background: float = 0.0
+) -> GreyImage:
+    """(h, w) float32 picture of (m,) values, interpolated linearly over each visible triangle."""
+    return _kernels.interpolate(
+        rendering.face_ids,
+        rendering.triangles,
+        rendering.projected,
+        np.ascontiguousarray(rendering.vertices[:, 2]),
+        np.ascontiguousarray(values_per_vertex, dtype=np.float64),
+        background,
     )

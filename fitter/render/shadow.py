@@ -6,8 +6,8 @@ from jaxtyping import Bool
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.parameters import Light
 from fitter.render.camera import Camera
-from fitter.render.light import direction_to_light, light_position
 from fitter.render.rasterizer import NEAR_PLANE_M, render
+from fitter.render.reflectance import direction_to_light, light_position
 from fitter.vocabulary.choices import LightKind
 
 SHADOW_MAP_SIZE_PX = 768

@@ -6,25 +6,23 @@ import cv2
 import numpy as np
 
 from fitter.arrays import Points3D, Shape
+from fitter.body.model import regress
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.skeleton import regress
 from fitter.export.display import to_levels
 from fitter.fits.pipeline import PACKAGED
 from fitter.fits.prepared_model import prepared_model
 from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
+from fitter.pose_init.click_fit import turn_head
 from fitter.pose_init.click_problem import click_problem
-from fitter.pose_init.head import turn_head
 from fitter.pose_init.initial_pose import initialize_pose, reference_of
 from fitter.pose_init.landmark_rig import landmark_rig
-from fitter.pose_init.lifting import Lifting
+from fitter.pose_init.lifting import Lifting, OrthographicLifting, PerspectiveLifting
 from fitter.pose_init.limbs import limb_lengths_m
-from fitter.pose_init.orthographic import OrthographicLifting
-from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints, clicked_points
 from fitter.pose_init.start_poses import start_poses
-from fitter.pose_init.trunk_points import trunk_points
+from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
 from fitter.reproduction.figure import Figure

@@ -3,21 +3,31 @@
 Reference [18]: Rother, Kolmogorov and Blake, "GrabCut", SIGGRAPH 2004. Where the paper leaves a
 choice we follow OpenCV, except that the graph covers the band alone and the mixtures start from the
 known pixels.
+
+Wood has the colour of skin and a shaded thigh that of the wall behind it; where colours mislead,
+what is known of the person's place decides. Both sources are blurred: the detector's mask by its
+resolution, a body by its error.
+
+Known pixels are not nodes. A known pixel always stays on its own side, so its link to an open
+neighbour is equivalent to a link from that neighbour to the known pixel's terminal (Boykov and
+Jolly 2001). The band is a tenth to a third of the picture, and time grows with the nodes.
 """
 
 from dataclasses import dataclass
+from typing import Final
 
 import cv2
 import numpy as np
-from jaxtyping import UInt8
+from jaxtyping import Bool, Float, Int, UInt8
 
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.errors import InvalidInputError
-from fitter.numerics.windows import window_about
+from fitter.numerics.masks import window_about
 from fitter.remarks import FitWarning
-from fitter.segmentation.band_graph import BandGraph
+from fitter.segmentation._band_kernels import link_band, mean_squared_difference
+from fitter.segmentation._max_flow_kernels import SOURCE, maximum_flow, push_to_neighbours
 from fitter.segmentation.colour_mixture import first_mixture, relearnt_mixture
-from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain
+from fitter.segmentation.trimap import Trimap, TrimapLabel, body_size, is_uncertain
 
 CUTS = 3
 """Borders move little after the third cut: over 28 tri-maps of seven rendered people the masks
@@ -88,7 +98,7 @@ def segment(display: Image, labels: Trimap, preferred: GreyImage | None = None) 
         The tri-map.
     preferred
         (h, w) what is known of pixels beside their colours, nats in favour of the person
-        (:mod:`fitter.segmentation.preference`); None is the paper's GrabCut.
+        (:mod:`fitter.segmentation.grabcut`); None is the paper's GrabCut.
 
     Raises
     ------
@@ -224,3 +234,118 @@ def _without_speckle(mask: Mask, sure: Mask) -> Mask:
     whole = np.zeros_like(whole)
     whole[window] = mask | small[holes] if count > 1 else mask
     return whole
+
+
+WEIGHT: Final = 16.0
+"""Nats of preference per unit of log-odds. Much, because the contrast between two neighbours of the
+same colour weighs gamma = 50 nats and errors of mask and body are shared by whole limbs. Chosen on
+tuning halves: DECISIONS.md, "GrabCut is told where the person is"."""
+
+BODY_BLUR_SHARE: Final = 0.006
+"""Standard deviation of a fitted body's outline about the person's, as a share of the person's
+longer side: a centimetre on a standing adult."""
+
+_LEAST_SEEN, _LEAST_COVERED = 0.02, 0.05
+"""No pixel is surer than this of being background or, mirrored, the person: of the detector's mask
+and of a body."""
+
+
+def preference(seed: GreyImage, silhouette: Mask | None) -> GreyImage:
+    """How much each pixel prefers to be the person, nats; negative for background.
+
+    Parameters
+    ----------
+    seed
+        (h, w) probability that a pixel shows the person, by the detector.
+    silhouette
+        (h, w) of a body fitted to the picture, if there is one yet.
+    """
+    nats = _log_odds(seed, _LEAST_SEEN)
+    if silhouette is not None:
+        sigma = BODY_BLUR_SHARE * body_size(silhouette, np.empty((0, 2, 2)))
+        covered = cv2.GaussianBlur(silhouette.astype(np.float32), (0, 0), max(sigma, 0.5))
+        nats = nats + _log_odds(covered, _LEAST_COVERED)
+    return WEIGHT * nats
+
+
+def _log_odds(probability: GreyImage, least: float) -> GreyImage:
+    bounded = np.clip(probability, least, 1.0 - least)
+    return np.log(bounded / (1.0 - bounded))
+
+
+SMOOTHNESS = 50.0
+"""GrabCut's gamma: the cost of a border between two pixels of the same colour, nats."""
+
+STEPS_PER_NAT = 1000
+"""Capacities are integers, so that sums are exact and saturated arcs exactly full."""
+
+CERTAIN = 9.0 * SMOOTHNESS
+"""A pixel's eight links together weigh at most 4 (1 + 1/sqrt(2)) gamma, so the cut does not change
+once the difference between the pixel's two costs exceeds this."""
+
+
+@dataclass(slots=True, eq=False, kw_only=True)
+class BandGraph:
+    """The residual graph after the flow so far. Mutable: cutting changes it.
+
+    Attributes
+    ----------
+    heads, capacities
+        (8 n,) see the kernels.
+    bound
+        (n,) links through known neighbours to the source, minus those to the sink.
+    given, left
+        (n,) preference for the source at the last cut, and what the flow left of it.
+    """
+
+    heads: Int[np.ndarray, " a"]
+    capacities: Int[np.ndarray, " a"]
+    bound: Int[np.ndarray, " n"]
+    given: Int[np.ndarray, " n"]
+    left: Int[np.ndarray, " n"]
+
+    @classmethod
+    def of(
+        cls, picture: UInt8[np.ndarray, "h w 3"], open_pixels: Mask, foreground: Mask
+    ) -> "BandGraph":
+        """Link the open pixels of a picture; ``foreground`` gives the sides of the others.
+
+        Two neighbours p and q are linked with weight gamma exp(-beta |z_p - z_q|²) / dist(p, q),
+        where beta is the inverse of twice the mean of |z_p - z_q|² over the picture.
+        """
+        rows, columns = (each.astype(np.int32) for each in np.nonzero(open_pixels))
+        nodes = np.full(open_pixels.shape, -1, dtype=np.int32)
+        nodes[open_pixels] = np.arange(len(rows), dtype=np.int32)
+        straight = _capacity_table(mean_squared_difference(picture))
+        diagonal = np.rint(straight / np.sqrt(2.0)).astype(np.int32)
+        heads, capacities, bound = link_band(
+            picture, foreground, nodes, rows, columns, straight, diagonal
+        )
+        none = np.zeros(len(rows), dtype=np.int32)
+        return cls(heads=heads, capacities=capacities, bound=bound, given=none, left=none.copy())
+
+    def cut(self, preference: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
+        """The open pixels on the foreground's side of the minimum cut.
+
+        Only terminals change from cut to cut, so the previous flow is reused: the change is added
+        to their residuals (Kohli and Torr 2005, section 3).
+
+        Parameters
+        ----------
+        preference
+            Cost of background minus cost of foreground, nats.
+        """
+        limited = np.clip(preference, -CERTAIN, CERTAIN)
+        given = np.rint(STEPS_PER_NAT * limited).astype(np.int32) + self.bound
+        self.left += given - self.given
+        self.given = given
+        push_to_neighbours(self.heads, self.capacities, self.left)
+        return maximum_flow(self.heads, self.capacities, self.left) == SOURCE
+
+
+def _capacity_table(mean_square: float) -> Int[np.ndarray, " d"]:
+    """Capacity of a straight link by the squared difference, up to where it rounds to zero."""
+    full = STEPS_PER_NAT * SMOOTHNESS
+    beta = 0.5 / max(mean_square, np.finfo(np.float64).tiny)
+    end = min(int(np.log(2.0 * full) / beta) + 1, 3 * 255**2 + 1)
+    return np.rint(full * np.exp(-beta * np.arange(end))).astype(np.int32)

@@ -7,8 +7,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage, Image, Mask
-from fitter.numerics.distance_map import exact_distances
-from fitter.numerics.windows import window_about
+from fitter.numerics.masks import exact_distances, window_about
 
 BAND_SHARE_OF_WIDTH = 0.05
 """The paper's: erode and dilate by 5 % of the picture's width."""

@@ -19,7 +19,7 @@ WEIGHT: Final = "weight"
 LEAST_HEIGHT_M: Final = 1.2
 MOST_HEIGHT_M: Final = 2.3
 """What a request may say of a height, whichever request. What is within and yet unusual is taken
-with a warning (:mod:`fitter.population.unusual_height`)."""
+with a warning (:mod:`fitter.population.measured_population`)."""
 
 
 def _units() -> Mapping[str, str]:

@@ -22,8 +22,7 @@ from fitter.observation.observation import observe
 from fitter.parameters import Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import Rendering, render
+from fitter.render.rasterizer import Rendering, render, shade_image
 from fitter.render.reflectance import shade, shade_with_derivatives
 from fitter.render.shadow import cast_shadow
 from fitter.request import Click, View

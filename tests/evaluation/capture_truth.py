@@ -7,10 +7,10 @@ import cv2
 import numpy as np
 
 from fitter.arrays import Mask
-from fitter.capture.arms import free_share
-from fitter.capture.camera_place import NEAREST_M
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code
+from fitter.capture.framing import NEAREST_M
+from fitter.capture.posture import free_share
 from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.joint_figures import part_of_joint
 from tests.evaluation.scene import Series

@@ -6,7 +6,7 @@ What the shape space cannot say remains on the mesh; each rung after that takes 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.taking import CENTIMETRES_PER_METRE

@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 from fitter.arrays import Normals, Points3D, Triangles, Vertices
 from fitter.numerics.meshes import vertex_areas
 from fitter.numerics.normals import summed_cross_products
-from fitter.numerics.vectors import unit_vectors
+from fitter.numerics.rotations import unit_vectors
 
 SURFACE_SPREAD_M = 0.005
 """What distances of surfaces are measured in."""

@@ -7,8 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vertices
-from fitter.body.model import BodyModel
-from fitter.body.skeleton import regress
+from fitter.body.model import BodyModel, regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.people import Person, rig_of_people

@@ -14,13 +14,13 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from fitter.arrays import PerVertex, Triangles, Vertices
+from fitter.body.model import regress
 from fitter.body.pose_prior import mean_pose, prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
-from fitter.body.skeleton import regress
 from fitter.body.tangent import attached_rows, linearise, point_jacobian
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.fits.prepared_model import prepared_model
-from fitter.optimizer.parameter_vector import excess, moved
+from fitter.optimizer.free_space import excess, moved
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.part_tree import part_index
 from fitter.vocabulary.choices import Gender

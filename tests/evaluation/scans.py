@@ -6,7 +6,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.pipeline import fit
 from fitter.render.rasterizer import render
 from fitter.result import FitResult

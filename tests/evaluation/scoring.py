@@ -9,11 +9,11 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Mask
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.pipeline import fit
 from fitter.parameters import Light
-from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
+from fitter.render.reflectance import direction_to_light
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.outcomes import FocalLengthSource

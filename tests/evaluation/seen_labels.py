@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import UInt8
 
 from fitter.arrays import Mask
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.clothing import FACE_CLICKS
 from fitter.observation.colour import linear_from_display
 from fitter.render.rasterizer import render

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from fitter.arrays import Vertices
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.pipeline import fit
 from fitter.measurement.quantity import Measurement
 from fitter.person.fitted_person import FittedPerson

@@ -10,8 +10,7 @@ from jaxtyping import Integer
 from fitter.arrays import GreyImage, Triangles, Vertices
 from fitter.fits.prepared_model import prepared_model
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.scoring import Fitted, resampled, working_scale
 

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Triangles, Vertices
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.affine_body import AffineBody
 from fitter.measurement.anthropometry import measure

@@ -22,8 +22,7 @@ from fitter.observation.colour import display_from_linear
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from fitter.training.report.measurement_atlas import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from service.demo_data.sample import load_sample
 from tests.one_picture import one_picture

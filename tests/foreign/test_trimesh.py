@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from tests.foreign.artifacts import GLB_FILES
 from tests.foreign.expected import ROUNDING_M, shown_by

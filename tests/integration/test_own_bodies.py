@@ -8,11 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, regress
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.shape_space import rest_vertices, shape_for_height
-from fitter.body.skeleton import regress
-from fitter.body.stature import stature_m
+from fitter.body.shape_space import rest_vertices, shape_for_height, stature_m
 from fitter.body.storage import load_body_model
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model

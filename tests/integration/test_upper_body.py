@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.request import Cues

@@ -4,7 +4,7 @@ SCAPE asks of every triangle t of part p the deformation gradient R_p [D_t(β) +
 the features (R - I) of the joints next to the part: a sine and a cosine of each angle, so that a
 bulge may grow with the bend or with its square, while a body at rest is left alone. Of the
 shoulders, whose blades go along by a share of the arm's angle, half turns count too
-(:mod:`fitter.body.pose_features`): without, arms are off by 4.5 mm in place of 2.9. How far
+(:mod:`fitter.body.scape`): without, arms are off by 4.5 mm in place of 2.9. How far
 a feature a acts on a part grows with the body, because E has to make up for the distance between
 the joint and the skin, and that differs between a stout and a lean thigh::
 
@@ -27,8 +27,8 @@ from jaxtyping import Float
 from scipy import sparse
 
 from fitter.arrays import Pose, Shape, Vertices
-from fitter.body.pose_features import FeatureJoints, pose_features
-from fitter.body.skeleton import global_rotations
+from fitter.body.model import global_rotations
+from fitter.body.scape import FeatureJoints, pose_features
 from fitter.training.articulation.bilinear_ridge import BilinearSums, solve_bilinear
 from fitter.training.articulation.part_tree import (
     PART_NAMES,

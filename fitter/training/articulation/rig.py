@@ -17,7 +17,7 @@ from jaxtyping import Float, Integer
 from scipy import sparse
 
 from fitter.arrays import Pose, Rotations, Vertices
-from fitter.body.skeleton import global_rotations
+from fitter.body.model import global_rotations
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
 from fitter.training.articulation.rig_drives import BoneDrives, bone_drives

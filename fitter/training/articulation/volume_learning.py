@@ -19,11 +19,9 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from fitter.arrays import Pose, Shape
-from fitter.body.model import BodyModel
-from fitter.body.pose_features import pose_features
-from fitter.body.scape import ScapeEvaluator
+from fitter.body.model import BodyModel, global_rotations
+from fitter.body.scape import ScapeEvaluator, pose_features
 from fitter.body.shape_space import rest_vertices
-from fitter.body.skeleton import global_rotations
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.meshes import enclosed_volume
 from fitter.numerics.normals import summed_cross_products

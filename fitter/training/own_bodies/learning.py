@@ -10,8 +10,7 @@ from jaxtyping import Float, Integer
 
 from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
-from fitter.body.pose_features import FeatureJoints
-from fitter.body.scape import ScapeEvaluator
+from fitter.body.scape import FeatureJoints, ScapeEvaluator
 from fitter.errors import MeshFolderError
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.pose_term import (

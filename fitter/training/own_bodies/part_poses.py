@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Pose, Vertices
-from fitter.body.skeleton import global_rotations
+from fitter.body.model import global_rotations
 from fitter.training.articulation.named_poses import relative_pose
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
 from fitter.training.articulation.parts import Parts

@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Triangles, Vertices
+from fitter.body.model import regress
 from fitter.body.model_checks import HEIGHT_RANGE_M
-from fitter.body.skeleton import regress
 from fitter.errors import MeshFolderError
 from fitter.training.articulation.part_tree import part_index
 from fitter.training.own_bodies.mesh_files import MeshFile

@@ -10,8 +10,7 @@ from jaxtyping import Float
 from fitter.arrays import PerVertex, Pose, Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.shape_space import standing_vertices
-from fitter.body.stature import stature_m
+from fitter.body.shape_space import standing_vertices, stature_m
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.joints import joint_errors_mm
 from fitter.training.articulation.random_poses import random_pose

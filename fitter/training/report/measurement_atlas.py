@@ -25,8 +25,7 @@ from fitter.measurement.definitions import Extent, Height, Length
 from fitter.measurement.document import ATLAS_FOLDER, sheet_name
 from fitter.observation.colour import display_from_linear
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import Rendering, render
+from fitter.render.rasterizer import Rendering, render, shade_image
 from fitter.vocabulary.measurements import Group, group_of
 
 GENDER = "female"

@@ -11,8 +11,8 @@ from api_schemas.derivation_kinds.caricature import (
 from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
 from fitter.applications.previews import View, preview
 from fitter.export.display import png
+from fitter.export.gltf import plain_glb
 from fitter.export.gltf_document import Frame
-from fitter.export.plain_gltf import plain_glb
 from fitter.person.upright import upright_turn
 from service.jobs.inputs import PERSON
 from service.worker.derived.person import person_and_operators

@@ -13,8 +13,8 @@ from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
 from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
+from fitter.export.gltf import plain_glb
 from fitter.export.gltf_document import Frame
-from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from service.jobs.inputs import PERSON

@@ -10,7 +10,7 @@ from fitter.applications.poses import (
     spelled_pose,
 )
 from fitter.applications.rig import beyond_limits
-from fitter.body.skeleton import global_rotations, posed_joints, regress
+from fitter.body.model import global_rotations, posed_joints, regress
 from fitter.errors import InvalidInputError
 from fitter.numerics.rotations import rotation_matrices
 from tests.unit.applications.bodies import packaged

@@ -14,7 +14,7 @@ from fitter.applications.motion_file import read_motion
 from fitter.applications.poses import NAMED_POSES, named_pose
 from fitter.applications.retarget import Retargeted, retarget
 from fitter.applications.walk import stride_of
-from fitter.body.skeleton import global_rotations, posed_joints
+from fitter.body.model import global_rotations, posed_joints
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, NAMES, bvh_of
 

@@ -21,8 +21,7 @@ from fitter.observation.colour import linear_from_display
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from fitter.render.reflectance import shading_terms
 from fitter.render.shadow import cast_shadow
 from fitter.vocabulary.choices import Gender, LightKind

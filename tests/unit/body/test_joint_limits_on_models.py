@@ -10,9 +10,8 @@ import pytest
 
 from fitter.arrays import Pose
 from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, global_rotations, regress
 from fitter.body.pose_prior import PosePrior, pose_prior, prior_residuals
-from fitter.body.skeleton import global_rotations, regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.rotations import rotation_matrices
 from fitter.training.articulation.named_poses import relative_pose, rotation_between

@@ -5,9 +5,8 @@ import pytest
 import trimesh
 
 from fitter.body.lighter_model import LighterModel, lighter_model
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, regress
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.stature import stature_m
+from fitter.body.shape_space import stature_m
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.meshes import enclosed_volume, triangle_neighbours
 from fitter.parameters import BodyParameters

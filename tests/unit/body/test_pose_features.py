@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitter.body.pose_features import half_turns, pose_derivative, pose_features
+from fitter.body.scape import half_turns, pose_derivative, pose_features
 from fitter.numerics.rotations import compose, rotation_matrices
 
 JOINTS = np.array([[1, -1, -1], [0, 5, 2], [2, 4, -1]])

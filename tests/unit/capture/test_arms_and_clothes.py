@@ -3,9 +3,9 @@
 import cv2
 import pytest
 
-from fitter.capture.arms import arms, free_share
 from fitter.capture.clothes import clothes
 from fitter.capture.finding import Code, Finding, Unchecked
+from fitter.capture.posture import arms, free_share
 from fitter.observation.worn import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
 from fitter.vocabulary.outcomes import Severity

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from fitter.capture.camera_place import (
+from fitter.capture.finding import Code, Finding, Unchecked
+from fitter.capture.framing import (
     MOST_ROLLED_DEG,
     NEAREST_M,
     camera_distance_m,
@@ -13,7 +14,6 @@ from fitter.capture.camera_place import (
     lean_deg,
     roll,
 )
-from fitter.capture.finding import Code, Finding, Unchecked
 from tests.unit.capture.made_up import FRONT, STATURE_PX, by_points_alone, capture, person
 
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from fitter.capture.exposure import (
+from fitter.capture.finding import Code, Finding
+from fitter.capture.picture_quality import (
     DARKEST,
     bright_luminance,
     brightness,
     burnt_share,
     darkness,
 )
-from fitter.capture.finding import Code, Finding
 from fitter.observation.colour import display_from_linear
 from tests.unit.capture.made_up import by_points_alone, capture
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fitter.capture.finding import Code, Finding, Unchecked
+from fitter.capture.people import proportions
 from fitter.capture.posture import detected_directions, posture
-from fitter.capture.proportions import proportions
 from fitter.detection.detector import DetectedBody, LimbSlant
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import by_points_alone, capture, person

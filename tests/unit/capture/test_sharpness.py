@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fitter.capture.finding import Code, Finding, Unchecked
-from fitter.capture.sharpness import BLOCKING_PX, HARMFUL_PX, blur_of_edges, sharpness
+from fitter.capture.picture_quality import BLOCKING_PX, HARMFUL_PX, blur_of_edges, sharpness
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import capture, of_nobody
 

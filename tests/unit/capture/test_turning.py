@@ -5,7 +5,7 @@ import math
 import pytest
 
 from fitter.capture.finding import Code, Finding, Unchecked
-from fitter.capture.turning import announced_view, facing, seen_from
+from fitter.capture.posture import announced_view, facing, seen_from
 from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person

@@ -5,8 +5,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from fitter.detection.body_landmarks import BodyLandmarks
-from fitter.detection.landmark_meanings import INDEX_OF_POINT
-from fitter.detection.landmark_offsets import OFFSETS_M, RAISED_IN_PROFILE_M, own_pixels
+from fitter.detection.landmark_meanings import (
+    INDEX_OF_POINT,
+    OFFSETS_M,
+    RAISED_IN_PROFILE_M,
+    own_pixels,
+)
 
 PIXELS_PER_METRE = 250.0
 NOWHERE = np.array([320.0, 240.0])

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.detection.square_crop import SquareCrop
+from fitter.detection.network import SquareCrop
 
 
 def picture_with_a_spot(x: float, y: float) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.energies.limb_slants import SlantEvidence, slant_energy, slant_rows
-from fitter.pose_init.limb_reaches import TRUNCATION
+from fitter.pose_init.limbs import TRUNCATION
 
 TOWARD = np.array([0.28, 0.0, 0.96])
 LANDMARKS = np.array([[0.0, 0.0, 3.0], [0.1, 0.4, 3.2], [0.0, 0.8, 3.1]])

@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 from scipy.spatial import KDTree
 
 from fitter.arrays import Pose
-from fitter.body.skeleton import global_rotations, regress
+from fitter.body.model import global_rotations, regress
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import (
     penetration_energy,

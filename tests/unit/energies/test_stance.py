@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import regress
-from fitter.energies import _stance_kernels as kernels
+from fitter.body.model import regress
+from fitter.energies import _body_kernels as kernels
 from fitter.energies import stance as stances
 from fitter.energies.stance import (
     CAMERA_HEIGHT_M,

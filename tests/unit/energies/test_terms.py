@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from fitter.body.model import SparseRows
+from fitter.body.model import SparseRows, regress
 from fitter.body.scape import increment
-from fitter.body.skeleton import regress
-from fitter.energies._silhouette_kernels import nearest_within
+from fitter.energies._picture_kernels import nearest_within
 from fitter.energies.clicks import ClickEvidence, click_energy, click_evidence, click_rows
 from fitter.energies.edges import edge_energy, edge_rows
 from fitter.energies.penetration import (

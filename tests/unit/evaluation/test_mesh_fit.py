@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
 from fitter.vocabulary.choices import Gender

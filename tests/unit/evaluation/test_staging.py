@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.render.light import light_position
+from fitter.render.reflectance import light_position
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.clicks import CLICK_DEVIATION_PX, noisy_clicks, rendering, true_points
 from tests.evaluation.people import load_person, rig_of_people

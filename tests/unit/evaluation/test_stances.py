@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import global_rotations
+from fitter.body.model import global_rotations
 from fitter.training.articulation.part_tree import PART_PARENT, part_index
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
@@ -11,7 +11,7 @@ from tests.evaluation.stances import pose_of, standing_on_both_feet
 
 @pytest.fixture(scope="module")
 def joints() -> np.ndarray:
-    from fitter.body.skeleton import regress
+    from fitter.body.model import regress
 
     model = packaged_model(Gender.MALE)
     return regress(model.joint_regressor, model.mean_vertices)

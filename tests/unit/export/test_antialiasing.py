@@ -6,8 +6,7 @@ import pytest
 from fitter.export.antialiasing import PAPER, SAMPLES, render_finely, vertex_pictures
 from fitter.export.display import block_means, finer, to_levels
 from fitter.observation.colour import display_from_linear
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from tests.unit.export.results import CAMERA
 from tests.unit.measurement.solids import sphere
 

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.export._level_kernels import levels_of
+from fitter.export._antialiasing_kernels import levels_of
 from fitter.export.display import (
     block_means,
     finer,

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.export.png_file import png_file
+from fitter.export.display import png_file
 
 DRAWS = np.random.default_rng(5)
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from fitter.body.model import regress
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import shape_for_height
-from fitter.body.skeleton import regress
 from fitter.errors import InvalidInputError
 from fitter.fits.initial_body import initial_body, limb_readings
 from fitter.fits.prepared_model import prepared_model

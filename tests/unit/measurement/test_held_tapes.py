@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.measurement._held_kernels import crossings
+from fitter.measurement._contour_kernels import crossings
 from fitter.measurement.definitions import (
     BackContour,
     Contour,

@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import DefinitionError
 from fitter.measurement.definition_file import load_definitions

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.measurement.anthropometry import UNEXPLAINED_KEY, UNEXPLAINED_PATH, unexplained
 from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.unexplained import UNEXPLAINED_KEY, UNEXPLAINED_PATH, unexplained
 
 NAMES = [definition.about.name for definition in load_definitions()]
 

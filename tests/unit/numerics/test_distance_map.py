@@ -1,7 +1,7 @@
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from fitter.numerics.distance_map import exact_distances
+from fitter.numerics.masks import exact_distances
 
 
 def test_distances_are_the_exact_ones_to_the_last_bit():

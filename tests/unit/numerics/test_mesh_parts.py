@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.numerics.mesh_parts import grown, mesh_part
+from fitter.numerics.mesh_topology import grown, mesh_part
 
 # A chain of six vertices.
 EDGES = np.array([[k, k + 1] for k in range(5)])

@@ -1,7 +1,7 @@
 import numpy as np
 
+from fitter.numerics.mesh_faults import pierced_triangles
 from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.self_crossing import pierced_triangles
 
 TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], dtype=np.int32)
 CORNERS = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])

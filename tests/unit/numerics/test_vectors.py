@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitter.numerics.vectors import cross_products, unit_vectors
+from fitter.numerics.rotations import cross_products, unit_vectors
 
 
 def test_cross_products_broadcast_and_agree_with_numpy():

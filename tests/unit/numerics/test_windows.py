@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.numerics.windows import window_about
+from fitter.numerics.masks import window_about
 
 
 @pytest.mark.parametrize("margin", [0, 1, 30])

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.arrays import Image
+from fitter.body.model import regress
 from fitter.body.pose_prior import mean_pose
 from fitter.body.scape import increment
-from fitter.body.skeleton import regress
 from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes
 from fitter.energies.clicks import click_evidence
 from fitter.energies.fitting_operators import FittingOperators
@@ -36,8 +36,7 @@ from fitter.optimizer.alternation import (
 from fitter.optimizer.search import BodySearch
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from fitter.render.reflectance import shade
 from fitter.request import Click
 from fitter.vocabulary.choices import Gender, LightKind

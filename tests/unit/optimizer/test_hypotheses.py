@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import jaxtyping
 import pytest
 
-from fitter.optimizer.hypotheses import try_hypotheses
+from fitter.optimizer.search import try_hypotheses
 
 
 @pytest.fixture(autouse=True)

@@ -5,7 +5,7 @@ import pytest
 
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, usable_vertices
-from fitter.optimizer.light_freedom import light_slopes
+from fitter.optimizer.light_solve import light_slopes
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import Light, Reflectance

@@ -10,10 +10,16 @@ from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.rows import PositionRows, thinned
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.optimizer.normal_equations import MATRIX_ROWS, normal_equations, support_points
-from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance, without_nuisance
-from fitter.optimizer.renewed_lines import with_lines_about
+from fitter.optimizer.normal_equations import (
+    MATRIX_ROWS,
+    RowsWithNuisance,
+    normal_equations,
+    nuisance_covariance,
+    support_points,
+    without_nuisance,
+)
 from fitter.optimizer.row_jacobians import position_row_jacobian
+from fitter.optimizer.search import with_lines_about
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.render.rasterizer import render
 from tests.unit.optimizer.rendered_scene import of_person, rendered_scene

@@ -6,9 +6,9 @@ import trimesh
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from fitter.numerics.elimination import elimination_order
 from fitter.numerics.mesh_topology import mesh_topology
-from fitter.optimizer.pair_factor import PairFactor
+from fitter.numerics.surface_sample import elimination_order
+from fitter.optimizer.reflectance_solve import PairFactor
 
 
 @pytest.fixture(scope="module")

@@ -7,14 +7,13 @@ import pytest
 
 from fitter.energies.priors import POPULATION_PRECISION
 from fitter.energies.shading import usable_vertices
+from fitter.optimizer.free_space import moved
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.parameter_vector import moved
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.optimizer.uncertainty import certainty, shape_covariance
-from fitter.render.light import direction_to_light
-from fitter.render.reflectance import shade
+from fitter.render.reflectance import direction_to_light, shade
 from fitter.request import LightGuess
 from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, lit_fit, rendered_scene
 

@@ -8,8 +8,7 @@ import pytest
 from fitter.arrays import Image, Mask
 from fitter.energies.objective import Body, Candidate, Objective
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.optimizer.renewed_lines import with_lines_about
-from fitter.optimizer.search import body_search
+from fitter.optimizer.search import body_search, with_lines_about
 from fitter.vocabulary.choices import OptimizerKind
 from tests.unit.optimizer.rendered_scene import RenderedScene, of_person, rendered_scene
 

@@ -7,8 +7,8 @@ from fitter.energies import objective as objectives
 from fitter.energies.picture import SeenBody
 from fitter.energies.rows import Nuisance, PositionRows, Support
 from fitter.energies.terms import Term, terms_of
+from fitter.optimizer.free_space import moved
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.parameter_vector import moved
 from tests.unit.optimizer.rendered_scene import rendered_scene
 
 PLACE_M, WEIGHT = np.array([0.1, -0.2, 2.5]), 1e4

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
+from fitter.body.model import descendants
 from fitter.body.pose_prior import prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
-from fitter.body.skeleton import descendants
 from fitter.numerics.robust import huber, huber_weights
 from fitter.numerics.rotations import rotation_matrices
 from fitter.pose_init.click_problem import (
@@ -18,7 +18,7 @@ from fitter.pose_init.click_problem import (
     ClickProblem,
 )
 from fitter.pose_init.landmark_rig import LandmarkRig
-from fitter.pose_init.limb_reaches import TRUNCATION
+from fitter.pose_init.limbs import TRUNCATION
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

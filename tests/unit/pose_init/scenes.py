@@ -4,16 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitter.observation.click_spread import click_spread_m
+from fitter.observation.clicks import click_spread_m
 from fitter.pose_init.click_fit import FittedPoses
 from fitter.pose_init.click_problem import ClickProblem, click_problem
-from fitter.pose_init.hypotheses import refined_hypotheses
-from fitter.pose_init.initial_pose import reference_of
+from fitter.pose_init.initial_pose import reference_of, refined_hypotheses
 from fitter.pose_init.landmark_rig import landmark_points
+from fitter.pose_init.lifting import PerspectiveLifting
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
-from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
-from fitter.pose_init.trunk_points import trunk_points
+from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera
 from fitter.request import Click
 from fitter.vocabulary.choices import Facing

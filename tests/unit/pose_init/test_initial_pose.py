@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitter.body.model import regress
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import shape_for_height
-from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from fitter.body.model import regress
 from fitter.body.scape import CAMERA_AXES
-from fitter.body.skeleton import regress
 from fitter.numerics.rotations import rotation_matrices
 from fitter.pose_init._landmark_kernels import pose_rig
 from fitter.pose_init.landmark_rig import (

@@ -5,9 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitter.pose_init.lifting import FAR, NEAR
-from fitter.pose_init.orthographic import OrthographicLifting
-from fitter.pose_init.perspective import PerspectiveLifting
+from fitter.pose_init.lifting import FAR, NEAR, OrthographicLifting, PerspectiveLifting
 from fitter.render.camera import Camera
 
 CAMERA = Camera(focal_length_px=600.0, centre_x=320.0, centre_y=240.0, width=640, height=480)

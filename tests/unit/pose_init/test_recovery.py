@@ -5,14 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from fitter.pose_init.hypotheses import limb_facings
-from fitter.pose_init.initial_pose import reference_of
+from fitter.pose_init.initial_pose import limb_facings, reference_of
 from fitter.pose_init.landmark_rig import landmark_points
-from fitter.pose_init.orthographic import OrthographicLifting
-from fitter.pose_init.perspective import PerspectiveLifting
+from fitter.pose_init.lifting import OrthographicLifting, PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
-from fitter.pose_init.trunk_points import trunk_points
+from fitter.pose_init.trunk import trunk_points
 from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.plain_clicks import click_energy, pose_landmarks
 from tests.unit.pose_init.scenes import (

@@ -5,9 +5,8 @@ import pytest
 
 from fitter.body.pose_prior import mean_pose
 from fitter.pose_init.landmark_rig import landmark_points
-from fitter.pose_init.limbs import LIMB_NAMES, MIDDLES, limb_named
-from fitter.pose_init.perspective import PerspectiveLifting
-from fitter.pose_init.reference_limb import reference_limb
+from fitter.pose_init.lifting import PerspectiveLifting
+from fitter.pose_init.limbs import LIMB_NAMES, MIDDLES, limb_named, reference_limb
 from fitter.pose_init.start_poses import start_poses
 from fitter.render.camera import Camera
 from tests.unit.pose_init.scenes import LENGTHS, PRIOR, RIG

@@ -1,7 +1,6 @@
 import numpy as np
 
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from tests.unit.render.shapes import box, camera, sphere
 
 

@@ -1,7 +1,7 @@
 import cv2
 import numpy as np
 
-from fitter.render.outline import outline_loops
+from fitter.render.contours import outline_loops
 
 
 def ring() -> np.ndarray:

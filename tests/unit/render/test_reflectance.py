@@ -5,8 +5,14 @@ import numpy as np
 import pytest
 
 from fitter.parameters import Light, Reflectance
-from fitter.render.light import direction_derivatives, direction_to_light, light_position
-from fitter.render.reflectance import ShadingDerivatives, shade, shade_with_derivatives
+from fitter.render.reflectance import (
+    ShadingDerivatives,
+    direction_derivatives,
+    direction_to_light,
+    light_position,
+    shade,
+    shade_with_derivatives,
+)
 from fitter.vocabulary.choices import LightKind
 from tests.unit.render.shapes import sphere
 

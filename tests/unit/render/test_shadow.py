@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.parameters import Light
-from fitter.render.light import direction_to_light, light_position
+from fitter.render.reflectance import direction_to_light, light_position
 from fitter.render.shadow import cast_shadow
 from fitter.vocabulary.choices import LightKind
 from tests.unit.render.shapes import sphere, together

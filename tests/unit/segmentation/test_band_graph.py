@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from fitter.segmentation.band_graph import BandGraph
 from fitter.segmentation.colour_mixture import ColourMixture, first_mixture
+from fitter.segmentation.grabcut import BandGraph
 from fitter.segmentation.trimap import TrimapLabel, is_uncertain
 from tests.unit.segmentation.plain_grabcut import border_cost, opencv_cut, plain_costs
 from tests.unit.segmentation.rendered_pictures import PICTURES, rendered_picture

@@ -1,7 +1,6 @@
 import numpy as np
 
-from fitter.segmentation.grabcut import segment
-from fitter.segmentation.preference import WEIGHT, preference
+from fitter.segmentation.grabcut import WEIGHT, preference, segment
 from fitter.segmentation.trimap import trimap
 from tests.unit.segmentation.test_grabcut import NO_BONES, figure, overlap, picture
 

@@ -4,8 +4,7 @@ import numpy as np
 import trimesh
 from scipy import sparse
 
-from fitter.body.model import SparseRows
-from fitter.body.skeleton import global_rotations, posed_joints
+from fitter.body.model import SparseRows, global_rotations, posed_joints
 from fitter.training.articulation.part_tree import (
     PART_NAMES,
     PART_PARENT,

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitter.body.model import regress
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
-from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters

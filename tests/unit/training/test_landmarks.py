@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.body.model import SparseRows
-from fitter.body.skeleton import regress
+from fitter.body.model import SparseRows, regress
 from fitter.training.makehuman.body_space import average_traits, source_vertices
 from fitter.training.makehuman.landmarks import INNER_JOINTS
 from tests.unit.training import makehuman_data

@@ -2,8 +2,7 @@ import numpy as np
 import trimesh
 
 from fitter.body.model import BodyModel, SparseRows
-from fitter.body.pose_features import pose_features
-from fitter.body.scape import ScapeEvaluator
+from fitter.body.scape import ScapeEvaluator, pose_features
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index

@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.body.skeleton import global_rotations, posed_joints
+from fitter.body.model import global_rotations, posed_joints
 from fitter.numerics.rotations import rotation_matrices
 from fitter.training.articulation.named_poses import (
     CANONICAL_ARM_DEGREES,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitter.arrays import Pose, Vertices
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.numerics.rotations import rotation_vectors
 from fitter.training.articulation.part_tree import part_index
 from fitter.training.articulation.registered_bodies import RegisteredBodies

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fitter.body.skeleton import regress
+from fitter.body.model import regress
 from fitter.errors import MeshFolderError
 from fitter.training.own_bodies.template import (
     TEMPLATE_FILE,

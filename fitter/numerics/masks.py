@@ -1,8 +1,19 @@
-"""Distances in a mask that do not depend on where memory happens to lie."""
+"""Rows and columns of a picture that hold all there is to see."""
 
 import cv2
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
+
+
+def window_about(
+    marked: Bool[np.ndarray, "h w"] | UInt8[np.ndarray, "h w"], *, margin: int
+) -> tuple[slice, slice]:
+    """The rectangle of what is marked, at least one pixel, and ``margin`` pixels around it."""
+    rows, columns = np.flatnonzero(marked.any(axis=1)), np.flatnonzero(marked.any(axis=0))
+    return (
+        slice(max(0, int(rows[0]) - margin), int(rows[-1]) + 1 + margin),
+        slice(max(0, int(columns[0]) - margin), int(columns[-1]) + 1 + margin),
+    )
 
 
 def exact_distances(elsewhere: UInt8[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
