@@ -1,6 +1,6 @@
 """Compiled girths, from cut to tape; :mod:`fitter.measurement.tape` carries the shapes."""
 
-from typing import no_type_check
+from typing import NamedTuple, no_type_check
 
 import numpy as np
 from numba import njit
@@ -18,44 +18,52 @@ SCRAP_SHARE = 0.2
 back of a chest are about equal, scraps of an arm are 1 to 3 cm."""
 
 
+class Part(NamedTuple):
+    """The arrays of a :class:`~fitter.measurement.plane_cut.Region`."""
+
+    shares: np.ndarray
+    triangles: np.ndarray
+    neighbours: np.ndarray
+    allowed: np.ndarray
+    members: np.ndarray
+    vertices: np.ndarray
+
+
+class Heights(NamedTuple):
+    """Vertices along a normal, and the lowest and highest corner of each of a part's triangles."""
+
+    vertices: np.ndarray
+    lowest: np.ndarray
+    highest: np.ndarray
+
+
 @no_type_check
 @njit(cache=True)
-def girth_lengths(
-    vertices, shares, triangles, neighbours, allowed, members, member_vertices,
-    start, axis, normal, fractions, around_axis,
-):  # fmt: skip
+def girth_lengths(vertices, part, start, axis, normal, fractions, around_axis):
     """Lengths of the tapes at fractions of an axis; NaN where the plane misses the region."""
-    heights, lowest, highest = _heights(vertices, triangles, members, member_vertices, normal)
+    heights = _heights(vertices, part, normal)
     lengths = np.empty(fractions.size)
     for k in range(fractions.size):
-        points, _ = _tape(
-            vertices, shares, triangles, neighbours, allowed, members, member_vertices,
-            heights, lowest, highest, start + fractions[k] * axis, normal, around_axis,
-        )  # fmt: skip
+        point = start + fractions[k] * axis
+        points, _ = _tape(vertices, part, heights, point, normal, around_axis)
         lengths[k] = polygon_length(points) if points.shape[0] else np.nan
     return lengths
 
 
 @no_type_check
 @njit(cache=True)
-def girth_corners(
-    vertices, shares, triangles, neighbours, allowed, members, member_vertices,
-    point, normal, around_axis,
-):  # fmt: skip
+def girth_corners(vertices, part, point, normal, around_axis):
     """Corners (k, 3) of the tape in one plane and the edges (k, 2, 2) they lie on; none: missed."""
-    heights, lowest, highest = _heights(vertices, triangles, members, member_vertices, normal)
-    return _tape(
-        vertices, shares, triangles, neighbours, allowed, members, member_vertices,
-        heights, lowest, highest, point, normal, around_axis,
-    )  # fmt: skip
+    heights = _heights(vertices, part, normal)
+    return _tape(vertices, part, heights, point, normal, around_axis)
 
 
 @no_type_check
 @njit(cache=True)
-def _heights(vertices, triangles, members, member_vertices, normal):
-    """Vertices along the normal, and the lowest and highest corner of each of the triangles."""
+def _heights(vertices, part, normal):
+    triangles, members = part.triangles, part.members
     heights = np.empty(vertices.shape[0])
-    for v in member_vertices:
+    for v in part.vertices:
         heights[v] = (
             vertices[v, 0] * normal[0] + vertices[v, 1] * normal[1] + vertices[v, 2] * normal[2]
         )
@@ -68,31 +76,29 @@ def _heights(vertices, triangles, members, member_vertices, normal):
         c = heights[triangles[t, 2]]
         lowest[index] = min(a, b, c)
         highest[index] = max(a, b, c)
-    return heights, lowest, highest
+    return Heights(heights, lowest, highest)
 
 
 @no_type_check
 @njit(cache=True)
-def _tape(
-    vertices, shares, triangles, neighbours, allowed, members, member_vertices,
-    heights, lowest, highest, point, normal, around_axis,
-):  # fmt: skip
+def _tape(vertices, part, heights, point, normal, around_axis):
+    triangles, members = part.triangles, part.members
     level = point[0] * normal[0] + point[1] * normal[1] + point[2] * normal[2]
     crossed = np.empty(members.size, dtype=np.int64)
     count = 0
     for index in range(members.size):
         crossed[count] = members[index]
         # A vertex in the plane counts as above it.
-        count += (lowest[index] < level) & (highest[index] >= level)
+        count += (heights.lowest[index] < level) & (heights.highest[index] >= level)
     crossed = crossed[:count]
     above = np.empty(vertices.shape[0])
     for index in range(count):
         for corner in range(3):
             v = triangles[crossed[index], corner]
-            above[v] = heights[v] - level
+            above[v] = heights.vertices[v] - level
     visited = np.zeros(triangles.shape[0], dtype=np.bool_)
     cut, cut_edges, starts, closed = trace_lines(
-        vertices, shares, triangles, neighbours, allowed, crossed, above, visited
+        vertices, part.shares, triangles, part.neighbours, part.allowed, crossed, above, visited
     )
     points, edges, starts, closed = _stretches(cut, cut_edges, starts, closed)
     if closed.size == 0:

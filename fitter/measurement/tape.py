@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Points2D, Points3D, Vector3, Vertices
-from fitter.measurement._girth_kernels import girth_corners, girth_lengths
+from fitter.measurement._girth_kernels import Part, girth_corners, girth_lengths
 from fitter.measurement.definitions import Girth, Orientation, Selection
 from fitter.measurement.plane_cut import (
     Plane,
@@ -17,8 +17,6 @@ from fitter.measurement.plane_cut import (
 )
 
 UP, SIDEWAYS = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
-
-_Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 UNKNOWN = -1
 """In place of an edge's vertices."""
@@ -41,7 +39,7 @@ def girth_tape(
     axis = end - start
     points, edges = girth_corners(
         np.ascontiguousarray(vertices),
-        *_arrays(region),
+        _part(region),
         start + fraction * axis,
         girth_normal(girth, axis),
         girth.around_axis,
@@ -60,7 +58,7 @@ def _lengths(
     axis = end - start
     return girth_lengths(
         np.ascontiguousarray(vertices),
-        *_arrays(region),
+        _part(region),
         start,
         axis,
         girth_normal(girth, axis),
@@ -69,15 +67,14 @@ def _lengths(
     )
 
 
-def _arrays(region: Region) -> _Arrays:
-    """What the kernels take of a region, in their order."""
-    return (
-        region.shares,
-        region.triangles,
-        region.neighbours,
-        region.allowed,
-        region.members,
-        region.vertices,
+def _part(region: Region) -> Part:
+    return Part(
+        shares=region.shares,
+        triangles=region.triangles,
+        neighbours=region.neighbours,
+        allowed=region.allowed,
+        members=region.members,
+        vertices=region.vertices,
     )
 
 

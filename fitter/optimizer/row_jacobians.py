@@ -39,15 +39,8 @@ def position_row_jacobian(
         np.ascontiguousarray(rows.derivatives),
         np.ascontiguousarray(rows.points),
         np.sqrt(rows.weights),
-        positions,
-        frame.translation,
-        attachments.joint_follow,
-        attachments.part_weights,
-        attachments.shape_basis,
-        frame.rotations,
-        frame.parent_rotations,
-        frame.joints,
-        frame.joint_offsets,
+        _points(positions, attachments),
+        _frame(frame),
         result,
     )
     return result
@@ -61,7 +54,6 @@ def shading_row_jacobian(
     The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
     with the shape as it does on the body at rest. The light moves with the root joint.
     """
-    attachments = operators.tangent.vertices
     model = operators.model
     rest = model.mean_vertices + np.tensordot(candidate.parameters.shape, model.shape_basis, axes=1)
     result = _empty(len(rows.residuals), frame)
@@ -70,20 +62,15 @@ def shading_row_jacobian(
         rows.normal_derivatives,
         rows.vertices,
         np.sqrt(rows.weights),
-        candidate.vertices,
         candidate.rendering.vertex_normals,
-        frame.translation,
-        attachments.joint_follow,
-        attachments.part_weights,
-        attachments.shape_basis,
-        frame.rotations,
-        frame.parent_rotations,
-        frame.joints,
-        frame.joint_offsets,
-        rest,
-        model.triangles,
-        operators.rings.pointers,
-        operators.rings.triangles,
+        _points(candidate.vertices, operators.tangent.vertices),
+        _frame(frame),
+        kernels.Rest(
+            vertices=rest,
+            triangles=model.triangles,
+            pointers=operators.rings.pointers,
+            rings=operators.rings.triangles,
+        ),
         result,
     )
     place = slice(3 * len(frame.joints), 3 * len(frame.joints) + 3)
@@ -99,6 +86,25 @@ def scatter(rows: PositionRows, derivative: Vertices) -> None:
 def scatter_sums(by_sums: Points3D, support: SparseRows, derivative: Vertices) -> None:
     """Pull a derivative by weighted sums of vertices back to the vertices, in place."""
     kernels.scatter_sums(by_sums, support.pointers, support.indices, support.weights, derivative)
+
+
+def _points(positions: Points3D, attachments: Attachments) -> kernels.Points:
+    return kernels.Points(
+        positions=positions,
+        joint_follow=attachments.joint_follow,
+        part_weights=attachments.part_weights,
+        shape_basis=attachments.shape_basis,
+    )
+
+
+def _frame(frame: Linearisation) -> kernels.Frame:
+    return kernels.Frame(
+        translation=frame.translation,
+        rotations=frame.rotations,
+        parent_rotations=frame.parent_rotations,
+        joints=frame.joints,
+        joint_offsets=frame.joint_offsets,
+    )
 
 
 def _empty(count: int, frame: Linearisation) -> RowJacobian:

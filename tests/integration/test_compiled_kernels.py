@@ -12,23 +12,26 @@ from fitter.optimizer import _row_kernels as kernels
 
 draws = np.random.default_rng(1)
 vertices, parts, shapes, rows = 60, 16, 20, 40
-body = (
-    draws.normal(size=(vertices, 3)),
-    draws.normal(size=3),
-    draws.random((vertices, parts)),
-    draws.random((vertices, parts)),
-    draws.normal(size=(vertices, shapes, 3)),
-    draws.normal(size=(parts, 3, 3)),
-    draws.normal(size=(parts, 3, 3)),
-    draws.normal(size=(parts, 3)),
-    draws.normal(size=(shapes, parts, 3)),
+points = kernels.Points(
+    positions=draws.normal(size=(vertices, 3)),
+    joint_follow=draws.random((vertices, parts)),
+    part_weights=draws.random((vertices, parts)),
+    shape_basis=draws.normal(size=(vertices, shapes, 3)),
+)
+frame = kernels.Frame(
+    translation=draws.normal(size=3),
+    rotations=draws.normal(size=(parts, 3, 3)),
+    parent_rotations=draws.normal(size=(parts, 3, 3)),
+    joints=draws.normal(size=(parts, 3)),
+    joint_offsets=draws.normal(size=(shapes, parts, 3)),
 )
 result = np.empty((rows, 3 * parts + 3 + shapes))
 kernels.position_row_jacobian(
     draws.normal(size=(rows, 2, 3)),
     draws.integers(0, vertices, size=(rows, 2)),
     draws.random(rows),
-    *body,
+    points,
+    frame,
     result,
 )
 print(hashlib.sha256(result.tobytes()).hexdigest())
