@@ -14,32 +14,32 @@ from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import triangle_areas
 from fitter.training.articulation.joints import (
     fit_joint_regressor,
     regressed_joints,
     rest_joints_of,
 )
-from fitter.training.articulation.named_poses import canonical_pose, standing_pose
-from fitter.training.articulation.part_tree import (
+from fitter.training.articulation.parts import (
     PART_NAMES,
     PART_PARENT,
+    Parts,
+    cut_into_parts,
     mirrored_part,
     part_index,
 )
-from fitter.training.articulation.parts import Parts, cut_into_parts
 from fitter.training.articulation.pose_term import (
     PoseExample,
     PoseTerm,
     pose_feature_joints,
     train_pose_term,
 )
-from fitter.training.articulation.registered_bodies import RegisteredBodies
-from fitter.training.articulation.taught_poses import taught_poses
+from fitter.training.articulation.poses import canonical_pose, standing_pose, taught_poses
+from fitter.training.articulation.rigged_bodies import RegisteredBodies
 from fitter.training.makehuman.meshes import BaseMesh
 from fitter.training.shapes.attribute_spaces import attribute_space
 from fitter.training.shapes.height_rotation import Attribute
-from fitter.training.shapes.principal_shapes import principal_shapes
-from fitter.training.shapes.surface import triangle_areas, vertex_masses
+from fitter.training.shapes.principal_shapes import principal_shapes, vertex_masses
 
 SHAPE_COUNT = 20
 """n in the paper's experiments."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
 
 MOVED_PARTS: Mapping[str, str] = {
     "shoulder": "upper_arm", "elbow": "forearm", "wrist": "hand", "hip": "thigh", "knee": "shin",

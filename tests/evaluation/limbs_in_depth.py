@@ -3,7 +3,7 @@
 import numpy as np
 from jaxtyping import Float
 
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
 
 WRONG_BY = 0.35
 """Difference of two slants, as a share of the limb's length, that turns a limb the wrong way if

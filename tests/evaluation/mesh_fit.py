@@ -22,7 +22,7 @@ from fitter.energies.fitting_operators import FittingOperators
 from fitter.fits.prepared_model import prepared_model
 from fitter.optimizer.free_space import excess, moved
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.closest_points import (
     SURFACE_SPREAD_M,

@@ -8,8 +8,8 @@ from jaxtyping import Float
 
 from fitter.arrays import Pose, Vertices
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.training.articulation.named_poses import rotation_between
-from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.training.articulation.parts import PART_NAMES, part_index
+from fitter.training.articulation.poses import rotation_between
 from tests.evaluation.scene import Arm, Leg, Stance
 
 BISECTIONS = 16

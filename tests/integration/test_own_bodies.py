@@ -20,8 +20,7 @@ from fitter.training.__main__ import main
 from fitter.training.own_bodies.command import GUIDE
 from fitter.training.own_bodies.learning import OwnPlan, split_subjects
 from fitter.training.own_bodies.template import TEMPLATE_FILE
-from fitter.training.shapes.principal_shapes import project
-from fitter.training.shapes.surface import vertex_masses
+from fitter.training.shapes.principal_shapes import project, vertex_masses
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.points import POINT_NAMES
 from tests.unit.training.own_bodies.bodies_folder import (

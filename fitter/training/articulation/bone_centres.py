@@ -19,9 +19,8 @@ from scipy import sparse
 from fitter.training.articulation.joints import convex_weights, ring_about
 from fitter.training.articulation.rig import Rig
 from fitter.training.makehuman.body_space import BodySpace, Traits, source_vertices
-from fitter.training.makehuman.local_changes import FACE_CHANGES
 from fitter.training.makehuman.meshes import BaseMesh
-from fitter.training.makehuman.phenotypes import YOUNG_AGE
+from fitter.training.makehuman.phenotypes import FACE_CHANGES, YOUNG_AGE
 
 SAMPLES = 200
 """Bodies that the centres are fitted on."""

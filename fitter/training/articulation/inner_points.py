@@ -10,12 +10,11 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.arrays import Pose, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import SparseRows
-from fitter.training.articulation.random_poses import random_pose
-from fitter.training.articulation.registered_bodies import RegisteredBodies
-from fitter.training.articulation.rig import Rig, bone_heads, bone_rotations
-from fitter.training.articulation.rigged_bodies import RiggedMesh
+from fitter.training.articulation.poses import random_pose
+from fitter.training.articulation.rig import bone_heads, bone_rotations, placed_heads
+from fitter.training.articulation.rigged_bodies import RegisteredBodies, RiggedMesh
 from fitter.training.makehuman.landmarks import Row, with_rows
 
 BONES: Mapping[str, str] = {
@@ -70,7 +69,10 @@ def with_inner_points(
         ]
     )
     posed_heads = np.stack(
-        [posed_bone_heads(mesh.rig, each, pose) for each, pose in zip(heads, poses, strict=True)]
+        [
+            placed_heads(mesh.rig, each, bone_rotations(mesh.rig, pose))
+            for each, pose in zip(heads, poses, strict=True)
+        ]
     )
     rest = bodies.rest[chosen]
     rows: dict[str, Row] = {}
@@ -85,20 +87,6 @@ def with_inner_points(
         mirrored = mesh.surface.mirror[members]
         rows[f"right_{name}"] = dict(zip(mirrored.tolist(), weights.tolist(), strict=True))
     return with_rows(landmarks, rows)
-
-
-def posed_bone_heads(
-    rig: Rig, heads: Float[np.ndarray, "b 3"], pose: Pose
-) -> Float[np.ndarray, "b 3"]:
-    """Where the bones' centres come to lie, body frame; the root bone's stays."""
-    rotations = bone_rotations(rig, pose)
-    placed = np.empty_like(heads)
-    for bone, parent in enumerate(rig.bone_parent):
-        if parent < 0:
-            placed[bone] = heads[bone]
-        else:
-            placed[bone] = placed[parent] + rotations[parent] @ (heads[bone] - heads[parent])
-    return placed
 
 
 def nearest(

@@ -9,7 +9,7 @@ from scipy.optimize import nnls
 
 from fitter.arrays import Vertices
 from fitter.body.model import SparseRows
-from fitter.training.articulation.part_tree import PART_NAMES, side_and_limb
+from fitter.training.articulation.parts import PART_NAMES, side_and_limb
 from fitter.training.articulation.rig_drives import rest_axis
 
 # The centre about which a part turns, as a mean of bone centres of the rig. Where a bend is spread

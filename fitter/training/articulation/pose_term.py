@@ -25,19 +25,19 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 from scipy import sparse
+from scipy.sparse.linalg import splu
 
 from fitter.arrays import Pose, Shape, Vertices
 from fitter.body.model import global_rotations
 from fitter.body.scape import FeatureJoints, pose_features
 from fitter.training.articulation.bilinear_ridge import BilinearSums, solve_bilinear
-from fitter.training.articulation.part_tree import (
+from fitter.training.articulation.parts import (
     PART_NAMES,
     PART_PARENT,
+    Parts,
     part_index,
     side_and_limb,
 )
-from fitter.training.articulation.parts import Parts
-from fitter.training.articulation.vertex_metric import vertex_motions
 
 RIDGE = 1e-3
 """Relative to the mean square of the features. Held-out error is flat from 1e-4 to 1e-2."""
@@ -152,3 +152,41 @@ def train_pose_term(
         right_hand_sides[span, :, : used[part]] = linear.transpose(1, 2, 0)
         strengths[part, : used[part]] = solution.strengths
     return PoseTerm(right_hand_sides=right_hand_sides, strengths=strengths)
+
+
+STRIDE = 8
+"""Every eighth vertex stands for its neighbours: what is smooth needs no more."""
+
+
+def vertex_motions(
+    laplacians: list[sparse.csr_array], parts: Parts
+) -> list[Float[np.ndarray, "_ i"]]:
+    """F_p of each part: what an error of a part's right-hand side does to the vertices.
+
+    The mesh is Y = L⁻¹ Σ_p S_p b_p, where S_p scatters the right-hand side b_p of part p. An error
+    e of b_p moves the vertices by L⁻¹ S_p e, so its mean square there is |F_p e|² with
+    F_p = L⁻¹ S_p / √m. Smooth errors, which add up along a limb, weigh thousands of times more than
+    rough ones. The body's translation, which is free, does not count.
+
+    Parameters
+    ----------
+    laplacians
+        L_p = G_pᵀ W_p G_p of each part.
+    parts
+        Which vertices each part touches.
+    """
+    count = parts.incidence_vertices.max() + 1
+    total = sum(laplacians[1:], start=laplacians[0])
+    # Holding one vertex frees the matrix of its null space; right-hand sides sum to zero.
+    held = sparse.coo_array(([total.diagonal().mean()], ([0], [0])), shape=(count, count))
+    sample = np.arange(0, count, STRIDE)
+    chosen = np.zeros((count, len(sample)))
+    chosen[sample, np.arange(len(sample))] = 1.0
+    rows = splu(sparse.csc_matrix(total + held)).solve(chosen).T
+    rows -= rows.mean(axis=0)
+    rows /= np.sqrt(len(sample))
+    motions: list[np.ndarray] = []
+    for part in range(len(laplacians)):
+        span = slice(parts.incidence_pointers[part], parts.incidence_pointers[part + 1])
+        motions.append(rows[:, parts.incidence_vertices[span]])
+    return motions

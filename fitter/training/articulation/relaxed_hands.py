@@ -12,7 +12,7 @@ from scipy import sparse
 
 from fitter.arrays import Rotations, Vertices
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.rig import Rig
+from fitter.training.articulation.rig import Rig, placed_heads
 from fitter.training.articulation.skinning import blend_linear
 
 FINGERS = (2, 3, 4, 5)
@@ -54,10 +54,7 @@ def with_curled_fingers(
         Mean bend of the finger joints by side, degrees.
     """
     rotations = finger_rotations(rig.bone_names, heads, curl)
-    centres = heads.copy()
-    for bone, parent in enumerate(rig.bone_parent):
-        if parent >= 0:
-            centres[bone] = centres[parent] + rotations[parent] @ (heads[bone] - heads[parent])
+    centres = placed_heads(rig, heads, rotations)
     translations = centres - np.einsum("bij,bj->bi", rotations, heads)
     return blend_linear(skin, rotations, translations, rest)
 

@@ -19,9 +19,8 @@ from scipy import sparse
 from fitter.arrays import Pose, Rotations, Vertices
 from fitter.body.model import global_rotations
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
-from fitter.training.articulation.rig_drives import BoneDrives, bone_drives
-from fitter.training.articulation.scapular_rhythm import raised_shares
+from fitter.training.articulation.parts import PART_NAMES, PART_PARENT
+from fitter.training.articulation.rig_drives import BoneDrives, bone_drives, raised_shares
 from fitter.training.articulation.skinning import blend_half_dual_quaternion
 
 RIG_FILE = Path("rigs/standard/rig.default.json")
@@ -155,13 +154,20 @@ def bone_motions(
 ) -> tuple[Float[np.ndarray, "b 3 3"], Float[np.ndarray, "b 3"]]:
     """Rigid motion x -> R x + t of every bone from rest to pose, body frame."""
     rotations = bone_rotations(rig, pose)
-    centres = np.empty_like(heads)
+    return rotations, placed_heads(rig, heads, rotations) - np.einsum(
+        "bij,bj->bi", rotations, heads
+    )
+
+
+def placed_heads(
+    rig: Rig, heads: Float[np.ndarray, "b 3"], rotations: Rotations
+) -> Float[np.ndarray, "b 3"]:
+    """Where the bones' centres come to lie, body frame; the root bone's stays."""
+    placed = heads.copy()
     for bone, parent in enumerate(rig.bone_parent):
-        if parent < 0:
-            centres[bone] = heads[bone]
-        else:
-            centres[bone] = centres[parent] + rotations[parent] @ (heads[bone] - heads[parent])
-    return rotations, centres - np.einsum("bij,bj->bi", rotations, heads)
+        if parent >= 0:
+            placed[bone] = placed[parent] + rotations[parent] @ (heads[bone] - heads[parent])
+    return placed
 
 
 def _head_row(

@@ -1,5 +1,6 @@
-"""Subjects of the population as registered bodies that the rig can pose."""
+"""Bodies on one mesh, at rest and in any pose: subjects of the population, posed by the rig."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,6 @@ from scipy import sparse
 
 from fitter.arrays import Pose, Vertices
 from fitter.training.articulation.joints import joint_rows_of_bones
-from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.articulation.relaxed_hands import RELAXED, with_curled_fingers
 from fitter.training.articulation.rig import Rig, bone_heads, part_weights, posed_vertices
 from fitter.training.articulation.volume_keeping import (
@@ -17,6 +17,29 @@ from fitter.training.articulation.volume_keeping import (
     with_volume_kept,
 )
 from fitter.training.makehuman.meshes import BaseMesh
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RegisteredBodies:
+    """Bodies on one mesh, at rest in one pose, body frame, metres.
+
+    Attributes
+    ----------
+    rest
+        (s, m, 3).
+    joints
+        (s, p, 3) true centres about which the parts turn.
+    posed
+        Body of an index in a pose: a rig's answer here, registered scans for those who have them.
+    measurements
+        (s, k) in any units, that the shape space shall keep beside the vertices; None to keep
+        vertices alone.
+    """
+
+    rest: Float[np.ndarray, "s m 3"]
+    joints: Float[np.ndarray, "s p 3"]
+    posed: Callable[[int, Pose], Vertices]
+    measurements: Float[np.ndarray, "s k"] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -9,7 +9,7 @@ and Abbott 1944, "Observations on the function of the shoulder joint"). So here
 - trunk skin toward the shoulder follows collar bone and blade, the more the farther out;
 - the cap of the shoulder follows the blade in part, in place of the arm;
 - both bones take more of an arm's swing where it is raised high
-  (:mod:`fitter.training.articulation.scapular_rhythm`), and as much as before where it is not.
+  (:mod:`fitter.training.articulation.rig_drives`), and as much as before where it is not.
 
 Places are told on the base mesh, by two coordinates of a vertex: *out*, its way from the inner end
 of the collar bone (0) to the shoulder joint (1) along the line that joins them, and *up*, its
@@ -24,7 +24,7 @@ from jaxtyping import Float
 from scipy import sparse
 
 from fitter.training.articulation.rig import Rig
-from fitter.training.articulation.scapular_rhythm import smooth_step
+from fitter.training.articulation.rig_drives import smooth_step
 from fitter.training.makehuman.meshes import BaseMesh
 
 RAISED_SWING: Mapping[str, float] = {"clavicle": 0.12, "shoulder01": 0.15}

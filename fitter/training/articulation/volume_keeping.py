@@ -19,11 +19,11 @@ from jaxtyping import Float, Integer
 from scipy import sparse
 
 from fitter.arrays import Pose, Triangles, Vertices
+from fitter.numerics.meshes import vertex_areas
 from fitter.numerics.normals import summed_cross_products
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
+from fitter.training.articulation.parts import PART_NAMES, PART_PARENT
 from fitter.training.articulation.rig import Rig, bone_motions
 from fitter.training.articulation.skinning import blend_half_dual_quaternion
-from fitter.training.shapes.surface import vertex_areas
 
 FRONT_DEPTH_M = 0.06
 """The spine's joints lie near the back, so it is belly and chest that a bend squeezes: the pattern

@@ -26,9 +26,9 @@ from fitter.numerics.gradient_operators import gradient_operator, part_laplacian
 from fitter.numerics.meshes import enclosed_volume
 from fitter.numerics.normals import summed_cross_products
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.parts import Parts
-from fitter.training.articulation.random_poses import random_pose
-from fitter.training.articulation.vertex_metric import vertex_motions
+from fitter.training.articulation.parts import parts_of
+from fitter.training.articulation.pose_term import vertex_motions
+from fitter.training.articulation.poses import random_pose
 
 SAMPLES = 1500
 VOLUME_SIGMA = 0.003
@@ -130,13 +130,7 @@ def _moved_squares(
     model: BodyModel, laplacians: list[sparse.csr_array], used: Integer[np.ndarray, " p"]
 ) -> Float[np.ndarray, " u"]:
     """Mean square motion of the vertices by one of each feature, square metres."""
-    parts = Parts(
-        part_of_triangle=model.part_of_triangle,
-        skinning_parts=model.skinning_parts,
-        skinning_weights=model.skinning_weights,
-        incidence_pointers=model.incidence_pointers,
-        incidence_vertices=model.incidence_vertices,
-    )
+    parts = parts_of(model)
     squares: list[np.ndarray] = []
     for part, motion in enumerate(vertex_motions(laplacians, parts)):
         span = slice(*model.incidence_pointers[part : part + 2])

@@ -13,13 +13,15 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vertices
-from fitter.training.makehuman.local_changes import FACE_CHANGES, LocalChange, local_changes
 from fitter.training.makehuman.meshes import BaseMesh, load_targets
 from fitter.training.makehuman.phenotypes import (
+    FACE_CHANGES,
     UPPER_BOUNDS,
     YOUNG_AGE,
+    LocalChange,
     MacroTargets,
     free_axes,
+    local_changes,
     macro_coefficients,
     macro_targets,
 )

@@ -2,8 +2,8 @@
 
 Every landmark is found by what it is, on the average of both genders' average bodies: an extremum
 near a joint, the vertex a target moves most, the rim of an eye. The points of the COCO convention
-that lie inside the body (shoulder, elbow, wrist, hip, knee, ankle) are the joints of MakeHuman's
-rig, written as smooth weights over the skin around them, for that is where people click.
+that lie inside the body (shoulder, elbow, wrist, hip, knee, ankle) are fitted to the subjects that
+a model is trained on (:mod:`fitter.training.articulation.inner_points`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,36 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, Integer
+from jaxtyping import Float
 
 from fitter.arrays import Vector3, Vertices
 from fitter.body.model import SparseRows
 from fitter.training.makehuman.body_space import BodySpace, average_traits, source_vertices
 from fitter.training.makehuman.meshes import BaseMesh, load_targets
 
-INNER_JOINTS = {
-    "shoulder": "joint-l-shoulder",
-    "elbow": "joint-l-elbow",
-    "wrist": "joint-l-hand",
-    "hip": "joint-l-upper-leg",
-    "knee": "joint-l-knee",
-    "ankle": "joint-l-ankle",
-}
-
-INNER_VERTICES = 150
-"""Vertices that carry an inner point: the rings of a limb within a few centimetres."""
-
-RIDGE = 1e-3
-"""Square metres; keeps the weights even, so that no vertex drags a point when the body bends. Over
-solved subjects the points then keep within 1 mm (wrist) to 13 mm (hip) of their joints on average.
-:mod:`fitter.training.articulation.inner_points` fits them anew to the subjects a model is trained
-on."""
-
-SAMPLES = 40
-"""Bodies a gender on which inner points follow their joints."""
-
-SAMPLE_REACH = 0.3
-"""Share of each parameter's range that the samples explore about the neutral body."""
+INNER_NAMES = ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
 
 MIDDLE = 1e-4
 """Metres: a vertex nearer than this to the plane of symmetry lies on it."""
@@ -48,7 +26,7 @@ MIDDLE = 1e-4
 LATERAL_NAMES = (
     "eye",
     "ear",
-    *INNER_JOINTS,
+    *INNER_NAMES,
     "toe",
     "heel",
     "sole",
@@ -79,39 +57,14 @@ class _Scene:
 
 
 def body_landmarks(folder: Path, base: BaseMesh, spaces: Sequence[BodySpace]) -> SparseRows:
-    """The landmarks common to all ``spaces``, by :func:`find_landmarks` on their average."""
-    traits, generator = average_traits(), np.random.default_rng(0)
-    average = np.mean([source_vertices(space, traits, space.neutral) for space in spaces], axis=0)
-    samples = [
-        source_vertices(
-            space, traits, space.neutral + SAMPLE_REACH * (space.upper - space.lower) * draw
-        )
-        for space in spaces
-        for draw in generator.uniform(-1.0, 1.0, (SAMPLES, len(space.neutral)))
-    ]
-    return find_landmarks(folder, base, average, np.stack(samples))
+    """The landmarks on the skin, as rows over the m body vertices, common to all ``spaces``.
 
-
-def find_landmarks(
-    folder: Path,
-    base: BaseMesh,
-    average_sources: Vertices,
-    sample_sources: Float[np.ndarray, "s v 3"],
-) -> SparseRows:
-    """All landmarks as rows over the m body vertices.
-
-    Parameters
-    ----------
-    folder
-        MakeHuman's data folder, for the targets that name nipple, navel and ear.
-    base
-        The base mesh.
-    average_sources
-        (v, 3) source vertices of an average body: where the search is done.
-    sample_sources
-        Bodies of differing shape, on which inner points must follow their joints.
+    ``folder`` is MakeHuman's, for the targets that name nipple, navel and ear.
     """
-    scene = _Scene(base=base, source=average_sources, body=base.body(average_sources))
+    average = np.mean(
+        [source_vertices(space, average_traits(), space.neutral) for space in spaces], axis=0
+    )
+    scene = _Scene(base=base, source=average, body=base.body(average))
     named = _most_moved(folder, base)
     left: dict[str, Row] = {
         **_left_openings(base),
@@ -119,14 +72,12 @@ def find_landmarks(
         "nipple": named["nipple"],
         **_left_extremes(scene),
     }
-    for name, group in INNER_JOINTS.items():
-        left[name] = _inner_row(base, group, average_sources, sample_sources)
     rows: dict[str, Row] = {"navel": named["navel"], **_middle_extremes(scene)}
     for name, row in left.items():
         prefixed = _side_names(name)
         rows[prefixed[0]] = row
         rows[prefixed[1]] = {int(base.mirror[vertex]): weight for vertex, weight in row.items()}
-    return _sparse(_ordered_names(), rows)
+    return _sparse(rows)
 
 
 def _side_names(name: str) -> tuple[str, str]:
@@ -135,7 +86,7 @@ def _side_names(name: str) -> tuple[str, str]:
 
 
 def _ordered_names() -> tuple[str, ...]:
-    coco = ("eye", "ear", *INNER_JOINTS)
+    coco = ("eye", "ear", *INNER_NAMES)
     rest = tuple(name for name in LATERAL_NAMES if name not in coco)
     return (
         "nose",
@@ -145,7 +96,9 @@ def _ordered_names() -> tuple[str, ...]:
     )
 
 
-def _sparse(names: Sequence[str], rows: Mapping[str, Row]) -> SparseRows:
+def _sparse(rows: Mapping[str, Row]) -> SparseRows:
+    """The rows in the order in which model files have them."""
+    names = [name for name in _ordered_names() if name in rows]
     chosen = [rows[name] for name in names]
     return SparseRows(
         names=tuple(names),
@@ -156,7 +109,7 @@ def _sparse(names: Sequence[str], rows: Mapping[str, Row]) -> SparseRows:
 
 
 def with_rows(landmarks: SparseRows, rows: Mapping[str, Row]) -> SparseRows:
-    """The landmarks with some of their rows replaced; order and names stay."""
+    """The landmarks with more of them, in the order in which model files have them."""
     spans = zip(landmarks.pointers[:-1], landmarks.pointers[1:], strict=True)
     kept: dict[str, Row] = {
         name: dict(
@@ -168,7 +121,7 @@ def with_rows(landmarks: SparseRows, rows: Mapping[str, Row]) -> SparseRows:
         )
         for name, (start, stop) in zip(landmarks.names, spans, strict=True)
     }
-    return _sparse(landmarks.names, {**kept, **rows})
+    return _sparse({**kept, **rows})
 
 
 def _most_moved(folder: Path, base: BaseMesh) -> dict[str, Row]:
@@ -252,27 +205,3 @@ def _left_extremes(scene: _Scene) -> dict[str, Row]:
         "finger_tip": scene.row(int(near_tip[np.argmax(body[near_tip] @ along)])),
         "acromion": scene.row(int(above[np.argmin(beside[above])])),
     }
-
-
-def _inner_row(
-    base: BaseMesh, group: str, average: Vertices, samples: Float[np.ndarray, "s v 3"]
-) -> Row:
-    """Weights w of the skin around a joint that give the joint: exactly on the average body.
-
-    Minimises Σ_s |Σ_v w_v x_v - j|² + ridge |w|² over bodies s, subject to Σ w = 1 and to the
-    joint of the average body, by its Lagrange equations.
-    """
-    joint = average[base.groups[group]].mean(axis=0)
-    distance = np.linalg.norm(base.body(average) - joint, axis=1)
-    members: Integer[np.ndarray, " z"] = np.argsort(distance, kind="stable")[:INNER_VERTICES]
-    joints = samples[:, base.groups[group]].mean(axis=1)
-    offsets = base.body(samples)[:, members] - joints[:, None, :]
-    A = offsets.transpose(0, 2, 1).reshape(-1, len(members))
-    C = np.concatenate([np.ones((1, len(members))), (base.body(average)[members] - joint).T])
-    size = len(members)
-    system = np.zeros((size + 4, size + 4))
-    system[:size, :size] = A.T @ A / len(samples) + RIDGE * np.eye(size)
-    system[:size, size:] = C.T
-    system[size:, :size] = C
-    weights = np.linalg.solve(system, np.concatenate([np.zeros(size), [1.0], np.zeros(3)]))[:size]
-    return dict(zip(members.tolist(), weights.tolist(), strict=True))

@@ -12,6 +12,7 @@ from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import FeatureJoints, ScapeEvaluator
 from fitter.errors import MeshFolderError
+from fitter.numerics.meshes import vertex_areas
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.pose_term import (
     PoseExample,
@@ -33,8 +34,7 @@ from fitter.training.report.held_out_figures import (
     shape_error,
     without_pose_term,
 )
-from fitter.training.shapes.principal_shapes import centred
-from fitter.training.shapes.surface import vertex_areas, vertex_masses
+from fitter.training.shapes.principal_shapes import centred, vertex_masses
 
 LEAST_AXIS_M = 1e-4
 """An axis that moves the skin by less than this at one deviation, root mean square, is rounding:

@@ -18,9 +18,8 @@ from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Pose, Vertices
 from fitter.body.model import global_rotations
-from fitter.training.articulation.named_poses import relative_pose
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
-from fitter.training.articulation.parts import Parts
+from fitter.training.articulation.parts import PART_NAMES, PART_PARENT, Parts
+from fitter.training.articulation.poses import relative_pose
 
 SCALE_M = 0.01
 """Of the robust weight: skin that lies this far from a rigid motion counts a quarter."""

@@ -10,8 +10,7 @@ from fitter.numerics.gradient_operators import gradient_operator, part_laplacian
 from fitter.training.articulation.parts import Parts
 from fitter.training.articulation.pose_term import PoseTerm, pose_feature_joints
 from fitter.training.assemble import ShapeSpace
-from fitter.training.shapes.principal_shapes import project
-from fitter.training.shapes.surface import vertex_masses
+from fitter.training.shapes.principal_shapes import project, vertex_masses
 
 LEAST_STRENGTH = 0.2
 """A feature keeps at least this share of its strength on the new mean body: bodies far from the

@@ -11,7 +11,7 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.model import regress
 from fitter.body.model_checks import HEIGHT_RANGE_M
 from fitter.errors import MeshFolderError
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
 from fitter.training.own_bodies.mesh_files import MeshFile
 from fitter.training.own_bodies.template import Template
 

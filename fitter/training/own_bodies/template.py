@@ -20,8 +20,7 @@ from fitter.body.model_checks import shares_fault
 from fitter.errors import MeshFolderError
 from fitter.fits.usable_model import needed_landmarks
 from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
-from fitter.training.articulation.part_tree import PART_NAMES
-from fitter.training.articulation.parts import Parts, joined_parts
+from fitter.training.articulation.parts import PART_NAMES, Parts, joined_parts, parts_of
 from fitter.training.assemble import BodyMesh
 
 TEMPLATE_FILE = "template.npz"
@@ -66,13 +65,7 @@ def packaged_template(model: BodyModel) -> Template:
         vertices=model.mean_vertices,
         mesh=BodyMesh(
             triangles=model.triangles,
-            parts=Parts(
-                part_of_triangle=model.part_of_triangle,
-                skinning_parts=model.skinning_parts,
-                skinning_weights=model.skinning_weights,
-                incidence_pointers=model.incidence_pointers,
-                incidence_vertices=model.incidence_vertices,
-            ),
+            parts=parts_of(model),
             joint_regressor=model.joint_regressor,
             landmarks=model.landmarks,
             uv=model.uv,

@@ -15,8 +15,7 @@ from jaxtyping import Float
 from fitter.arrays import Triangles
 from fitter.body.model import SparseRows
 from fitter.training.makehuman.body_space import BodySpace, Traits, source_vertices
-from fitter.training.makehuman.local_changes import FACE_CHANGES
-from fitter.training.makehuman.phenotypes import age_of_appearance
+from fitter.training.makehuman.phenotypes import FACE_CHANGES, age_of_appearance
 from fitter.training.people.subject_fit import Placed, Wanted, fit_subject, measured, place
 from fitter.training.surveys.civilians import (
     CivilianStatistics,
@@ -88,12 +87,10 @@ class Population:
     source_vertices
         (s, v, 3) float32, all source vertices of each subject, body frame, metres.
     parameters
-        (s, p) solved, by ``parameter_names``; ``lower`` and ``upper`` are their bounds.
+        (s, p) solved, by ``parameter_names``.
     wanted, reached
         (s, q) measurements drawn and those of the body, metres and kilograms, by
         ``measurement_names``.
-    deviation
-        (q,) standard deviations in the survey.
     """
 
     ages: Float[np.ndarray, " s"]
@@ -102,12 +99,9 @@ class Population:
     source_vertices: Float[np.ndarray, "s v 3"]
     parameters: Float[np.ndarray, "s p"]
     parameter_names: tuple[str, ...]
-    lower: Float[np.ndarray, " p"]
-    upper: Float[np.ndarray, " p"]
     wanted: Float[np.ndarray, "s q"]
     reached: Float[np.ndarray, "s q"]
     measurement_names: tuple[str, ...]
-    deviation: Float[np.ndarray, " q"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -169,12 +163,9 @@ def solve_population(
         source_vertices=np.stack([subject.source_vertices for subject in subjects]),
         parameters=np.stack([subject.parameters for subject in subjects]),
         parameter_names=space.parameter_names,
-        lower=space.lower,
-        upper=space.upper,
         wanted=np.stack([subject.wanted for subject in subjects]),
         reached=np.stack([subject.reached for subject in subjects]),
         measurement_names=MEASUREMENTS,
-        deviation=workshop.statistics.deviation,
     )
 
 
@@ -188,6 +179,10 @@ def draw_traits(age: float, generator: np.random.Generator) -> Traits:
     )
 
 
+_KEPT = [field.name for field in fields(Population) if field.name != "source_vertices"]
+"""What a file keeps: the vertices follow from the rest."""
+
+
 def population_path(folder: Path, gender: str, seed: int) -> Path:
     """Where a folder keeps the population of a gender and a seed."""
     return folder / f"population_{gender}_{seed}.npz"
@@ -196,8 +191,7 @@ def population_path(folder: Path, gender: str, seed: int) -> Path:
 def save_population(path: Path, population: Population) -> None:
     """Write a population to an ``.npz``, without its vertices, which follow from the rest."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    names = [field.name for field in fields(Population) if field.name != "source_vertices"]
-    np.savez_compressed(path, **{name: getattr(population, name) for name in names})
+    np.savez_compressed(path, **{name: getattr(population, name) for name in _KEPT})
 
 
 def load_population(path: Path, space: BodySpace, *, count: int | None = None) -> Population:
@@ -209,7 +203,7 @@ def load_population(path: Path, space: BodySpace, *, count: int | None = None) -
         If the file was solved in a space of other parameters.
     """
     with np.load(path, allow_pickle=False) as archive:
-        content = {name: archive[name] for name in archive.files}
+        content = {name: archive[name] for name in _KEPT}
     for name in ("parameter_names", "measurement_names"):
         content[name] = tuple(content[name].tolist())
     if content["parameter_names"] != space.parameter_names:

@@ -11,14 +11,14 @@ from fitter.arrays import PerVertex, Pose, Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import standing_vertices, stature_m
+from fitter.numerics.meshes import vertex_areas
 from fitter.parameters import BodyParameters
 from fitter.training.articulation.joints import joint_errors_mm
-from fitter.training.articulation.random_poses import random_pose
-from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.poses import random_pose
+from fitter.training.articulation.rigged_bodies import RegisteredBodies
 from fitter.training.assemble import height_attribute
 from fitter.training.shapes.height_rotation import SOLVED_AT_DEVIATIONS, attribute_changes
-from fitter.training.shapes.principal_shapes import centred, project
-from fitter.training.shapes.surface import vertex_areas, vertex_masses
+from fitter.training.shapes.principal_shapes import centred, project, vertex_masses
 
 POSED_EXAMPLES = 200
 _SEED = 20090929

@@ -14,8 +14,7 @@ from fitter.training.shapes.height_rotation import (
     attribute_changes,
     attribute_preserving_axes,
 )
-from fitter.training.shapes.principal_shapes import centred
-from fitter.training.shapes.surface import vertex_masses
+from fitter.training.shapes.principal_shapes import centred, vertex_masses
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Integer
+from jaxtyping import Integer
 from scipy import sparse
 
 from fitter.arrays import Triangles, Vector3, Vertices
@@ -265,14 +265,3 @@ def _difference(first: Row, second: Row) -> Row:
 
 def _unit(vector: Vector3) -> Vector3:
     return vector / np.linalg.norm(vector)
-
-
-def measured_lengths(forms: LinearForms, source: Vertices) -> Float[np.ndarray, " q"]:
-    """Every measurement but weight, metres."""
-    differences = forms.differences @ source
-    terms = np.where(
-        forms.axis < 0,
-        np.linalg.norm(differences, axis=1),
-        np.take_along_axis(differences, np.maximum(forms.axis, 0)[:, None], axis=1)[:, 0],
-    )
-    return np.bincount(forms.measurement, terms, minlength=len(MEASUREMENTS) - 1)

@@ -14,7 +14,7 @@ from fitter.body.model import BodyModel, global_rotations, regress
 from fitter.body.pose_prior import PosePrior, pose_prior, prior_residuals
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.named_poses import relative_pose, rotation_between
+from fitter.training.articulation.poses import relative_pose, rotation_between
 
 ADMITTED, REFUSED = 1.0, 20.0
 """Degrees beyond the limits at the worst joint."""

@@ -14,7 +14,7 @@ from fitter.body.pose_prior import (
     prior_terms,
 )
 from fitter.numerics.rotations import compose, rotation_matrices
-from fitter.training.articulation.named_poses import canonical_pose, standing_pose
+from fitter.training.articulation.poses import canonical_pose, standing_pose
 from tests.unit.pose_init.stick_figure import (
     PART_NAMES,
     mirrored_pose,

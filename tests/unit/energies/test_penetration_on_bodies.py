@@ -27,7 +27,7 @@ from fitter.numerics.normals import summed_cross_products
 from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
-from fitter.training.articulation.named_poses import relative_pose, rotation_between
+from fitter.training.articulation.poses import relative_pose, rotation_between
 from fitter.vocabulary.choices import Gender
 
 CAMERA = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=100.0, width=200, height=200)

@@ -16,7 +16,7 @@ from fitter.energies.stance import (
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
 from fitter.person.upright import upright_rotation
-from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.training.articulation.parts import PART_NAMES, part_index
 from fitter.vocabulary.choices import Gender, Posture
 from fitter.vocabulary.outcomes import StanceKind
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.training.articulation.parts import PART_NAMES, part_index
 from tests.evaluation.limbs_in_depth import wrong_limbs
 
 JOINTS = np.random.default_rng(3).normal(size=(len(PART_NAMES), 3))

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.body.model import global_rotations
-from fitter.training.articulation.part_tree import PART_PARENT, part_index
+from fitter.training.articulation.parts import PART_PARENT, part_index
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.scene import Arm, Leg, Stance

@@ -19,7 +19,7 @@ def test_a_stance_mirrored_twice_is_itself(stance):
 def test_a_mirrored_stance_is_the_mirrored_pose():
     sides = np.array([1.0, -1.0, -1.0])
     joints = np.random.default_rng(0).normal(size=(17, 3))
-    from fitter.training.articulation.part_tree import PART_NAMES
+    from fitter.training.articulation.parts import PART_NAMES
 
     other = [
         PART_NAMES.index(name.replace("left", "*").replace("right", "left").replace("*", "right"))

@@ -4,13 +4,17 @@ from functools import cache
 
 import numpy as np
 
-from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.articulation.rig import Rig, load_rig
-from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+from fitter.training.articulation.rigged_bodies import (
+    RegisteredBodies,
+    RiggedMesh,
+    rigged_bodies,
+    rigged_mesh,
+)
 from fitter.training.articulation.shoulder_girdle import with_shoulder_girdle
 from fitter.training.makehuman.body_space import Traits, source_vertices
-from fitter.training.makehuman.local_changes import FACE_CHANGES
 from fitter.training.makehuman.meshes import makehuman_folder
+from fitter.training.makehuman.phenotypes import FACE_CHANGES
 from tests.unit.training.makehuman_data import base_mesh, body_space
 
 NEUTRAL = Traits(age=0.5, ancestry=np.full(3, 1.0 / 3.0), face=np.zeros(len(FACE_CHANGES)))

@@ -5,13 +5,13 @@ import trimesh
 from scipy import sparse
 
 from fitter.body.model import SparseRows, global_rotations, posed_joints
-from fitter.training.articulation.part_tree import (
+from fitter.training.articulation.parts import (
     PART_NAMES,
     PART_PARENT,
     mirrored_part,
     part_index,
 )
-from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.rigged_bodies import RegisteredBodies
 from fitter.training.articulation.skinning import blend_linear
 from fitter.training.makehuman.meshes import BaseMesh
 
@@ -34,7 +34,6 @@ def surface() -> BaseMesh:
         uv=MEAN[:, :2],
         uv_triangles=TRIANGLES,
         mirror=MIRROR,
-        source_mirror=MIRROR,
         cap_triangles=np.zeros(0, dtype=np.int32),
     )
 

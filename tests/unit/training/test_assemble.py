@@ -9,7 +9,7 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
 from fitter.training.articulation.pose_term import PoseExample
 from fitter.training.assemble import (
     assemble_body_model,

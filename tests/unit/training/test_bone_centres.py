@@ -78,8 +78,10 @@ def test_bones_within_a_limb_lie_on_the_line_between_its_ends():
 
 
 def test_right_bones_mirror_left_ones_and_the_spine_lies_in_the_middle():
-    source = neutral_source()
-    symmetric = 0.5 * (source + source[base_mesh().source_mirror] * [-1.0, 1.0, 1.0])
+    base, symmetric = base_mesh(), neutral_source().copy()
+    body = base.body(symmetric)
+    mirrored = body[base.mirror] * [-1.0, 1.0, 1.0]
+    symmetric[base.body_vertex_ids] = 0.5 * (body + mirrored)
     heads = bone_heads(fitted(), symmetric)
     for name in names():
         stem, _, side = name.partition(".")

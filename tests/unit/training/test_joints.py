@@ -6,7 +6,7 @@ from fitter.training.articulation.joints import (
     joint_rows_of_bones,
     regressed_joints,
 )
-from fitter.training.articulation.part_tree import PART_NAMES, mirrored_part, part_index
+from fitter.training.articulation.parts import PART_NAMES, mirrored_part, part_index
 
 RNG = np.random.default_rng(8)
 MIRROR_JOINT = np.array([part_index(mirrored_part(name)) for name in PART_NAMES])

@@ -3,7 +3,6 @@ import pytest
 
 from fitter.body.model import SparseRows, regress
 from fitter.training.makehuman.body_space import average_traits, source_vertices
-from fitter.training.makehuman.landmarks import INNER_JOINTS
 from tests.unit.training import makehuman_data
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 
@@ -48,12 +47,11 @@ def test_left_and_right_mirror_each_other(landmarks: SparseRows, gender: str):
 def test_landmarks_stack_as_a_body_does(landmarks: SparseRows, gender: str):
     found = points(landmarks, gender)
     downwards = ["crown", "left_eye", "nose", "chin", "cervicale", "neck", "left_nipple", "navel"]
-    downwards += ["left_hip", "crotch", "left_knee", "left_ankle", "left_heel", "sole_left"]
+    downwards += ["crotch", "left_heel", "sole_left"]
     heights = np.array([found[name][1] for name in downwards])
     assert (np.diff(heights) < 0.0).all()
-    frontwards = ["seat", "left_hip", "navel"]
-    assert (np.diff([found[name][2] for name in frontwards]) > 0.0).all()
-    assert found["left_toe"][2] > found["left_ankle"][2] > found["left_heel"][2]
+    assert found["navel"][2] > found["seat"][2]
+    assert found["left_toe"][2] > found["left_heel"][2]
     assert 0.25 < found["left_acromion"][0] * 2 < 0.45
 
 
@@ -70,13 +68,3 @@ def test_the_face_is_where_faces_have_it(landmarks: SparseRows, gender: str):
     backwards = ["nose", "left_mouth_corner", "left_eye", "left_ear", "cervicale"]
     assert (np.diff([found[name][2] for name in backwards]) < -0.005).all()
     assert found["left_ear"][0] > found["left_eye"][0] + 0.03
-
-
-@pytest.mark.parametrize("gender", ["female", "male"])
-def test_inner_points_lie_at_the_joints_of_the_average_body(landmarks: SparseRows, gender: str):
-    space = body_space(gender)
-    vertices = source_vertices(space, average_traits(), space.neutral)
-    found = points(landmarks, gender)
-    for name, group in INNER_JOINTS.items():
-        joint = vertices[space.base.groups[group]].mean(axis=0)
-        assert np.linalg.norm(found[f"left_{name}"] - joint) < 0.012, name

@@ -4,16 +4,21 @@ import trimesh
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator, pose_features
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import triangle_areas
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
-from fitter.training.articulation.parts import Parts, cut_into_parts
+from fitter.training.articulation.parts import (
+    PART_NAMES,
+    PART_PARENT,
+    Parts,
+    cut_into_parts,
+    part_index,
+)
 from fitter.training.articulation.pose_term import (
     PoseExample,
     PoseTerm,
     pose_feature_joints,
     train_pose_term,
 )
-from fitter.training.shapes.surface import triangle_areas
 
 FOOT, SHIN = part_index("left_foot"), part_index("left_shin")
 SPHERE = trimesh.creation.icosphere(subdivisions=4)

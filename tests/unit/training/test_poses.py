@@ -2,15 +2,15 @@ import numpy as np
 
 from fitter.body.model import global_rotations, posed_joints
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.named_poses import (
+from fitter.training.articulation.parts import PART_NAMES, PART_PARENT, part_index
+from fitter.training.articulation.poses import (
     CANONICAL_ARM_DEGREES,
     canonical_pose,
+    random_pose,
     relative_pose,
     rotation_between,
     standing_pose,
 )
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
-from fitter.training.articulation.random_poses import random_pose
 
 RNG = np.random.default_rng(21)
 JOINTS = RNG.normal(size=(len(PART_NAMES), 3))

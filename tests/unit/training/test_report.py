@@ -28,12 +28,9 @@ def surveyed(count: int) -> Population:
         source_vertices=np.arange(count * 6, dtype=np.float32).reshape(count, 2, 3),
         parameters=np.zeros((count, 1)),
         parameter_names=("height",),
-        lower=np.zeros(1),
-        upper=np.ones(1),
         wanted=wanted,
         reached=wanted + [0.002, -1.5],
         measurement_names=("stature", "weightkg"),
-        deviation=np.ones(2),
     )
 
 

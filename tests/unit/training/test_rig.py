@@ -2,7 +2,7 @@ import numpy as np
 from scipy import sparse
 
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.training.articulation.parts import PART_NAMES, part_index
 from fitter.training.articulation.rig import (
     Rig,
     bone_heads,

@@ -8,17 +8,16 @@ import pytest
 from fitter.arrays import Pose, Vertices
 from fitter.body.model import regress
 from fitter.numerics.rotations import rotation_vectors
-from fitter.training.articulation.part_tree import part_index
-from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.parts import part_index
 from fitter.training.articulation.rig import Rig, bone_rotations, part_weights, swing_and_twist
-from fitter.training.articulation.rig_drives import rest_axis
-from fitter.training.articulation.rigged_bodies import rigged_bodies, rigged_mesh
-from fitter.training.articulation.scapular_rhythm import (
+from fitter.training.articulation.rig_drives import (
     FROM_DEGREES,
     TO_DEGREES,
     raised_shares,
+    rest_axis,
     smooth_step,
 )
+from fitter.training.articulation.rigged_bodies import RegisteredBodies, rigged_bodies, rigged_mesh
 from tests.unit.training.makehuman_data import base_mesh, landmarks, needs_makehuman
 from tests.unit.training.rigged_neutral import mesh, neutral_body, neutral_source, rig
 

@@ -3,9 +3,9 @@ from itertools import islice
 import numpy as np
 
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.parts import part_index
+from fitter.training.articulation.poses import EVERY, REACHES, taught_poses
 from fitter.training.articulation.rig_drives import rest_axis
-from fitter.training.articulation.taught_poses import EVERY, REACHES, taught_poses
 
 ROUND = EVERY * len(REACHES)
 

@@ -6,9 +6,9 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import triangle_areas
 from fitter.training.articulation.parts import Parts, joined_parts
-from fitter.training.articulation.vertex_metric import STRIDE, vertex_motions
-from fitter.training.shapes.surface import triangle_areas
+from fitter.training.articulation.pose_term import STRIDE, vertex_motions
 
 SPHERE = trimesh.creation.icosphere(subdivisions=2)
 REST = np.asarray(SPHERE.vertices)

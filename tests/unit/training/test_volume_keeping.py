@@ -5,7 +5,7 @@ import pytest
 
 from fitter.arrays import Pose
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.articulation.parts import PART_NAMES, PART_PARENT, part_index
 from fitter.training.articulation.rig import bone_heads, posed_vertices
 from fitter.training.articulation.volume_keeping import volume_change
 from tests.unit.training.makehuman_data import needs_makehuman

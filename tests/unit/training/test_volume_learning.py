@@ -12,7 +12,7 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.poses import random_pose
 from fitter.training.articulation.volume_learning import with_volume_learned
 
 SAMPLES = 30

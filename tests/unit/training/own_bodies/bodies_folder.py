@@ -12,7 +12,7 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
-from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.poses import random_pose
 from fitter.training.own_bodies.template import Template, packaged_template
 
 DECLARED = {"source": "drawn for a test", "licence": "CC0-1.0"}

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
+from fitter.numerics.meshes import vertex_areas
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.training.articulation.part_tree import PART_NAMES
-from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.parts import PART_NAMES
+from fitter.training.articulation.poses import random_pose
 from fitter.training.own_bodies.part_poses import best_rotation, refined_pose, solved_pose
-from fitter.training.shapes.surface import vertex_areas
 from tests.unit.training.own_bodies.bodies_folder import (
     packaged,
     posed_body,
