@@ -39,7 +39,6 @@ ATLAS_FOLDER = "fitter/measurement/atlas"
 _AGREEMENT = {
     Agreement.SAME: "as there",
     Agreement.DIFFERS: "differs",
-    Agreement.ABSENT: "not there",
 }
 
 
@@ -80,9 +79,11 @@ def _iso(iso: IsoDefinition | None) -> str:
 
 
 def _survey(survey: SurveyDefinition) -> str:
+    if survey.agreement is Agreement.ABSENT:
+        return "-"
     fields = " + ".join(f"`{field}`" for field in survey.fields)
     agreement = _AGREEMENT[survey.agreement].capitalize()
-    return f"{fields}{' ' if fields else ''}*{agreement}:* {survey.difference}"
+    return f"{fields}. *{agreement}:* {survey.difference}"
 
 
 if __name__ == "__main__":
