@@ -1,12 +1,14 @@
 """A body model on fewer vertices, for searching: the same bodies, shapes and poses.
 
 Two thirds of the triangles of a whole body cover head, hands and feet, where they are a fraction of
-a pixel and of no weight in the energies. The lighter model is a SCAPE model of its own on the
-decimated mean body: its triangles have the deformation gradients of the decimated bodies, so
-shapes and rigid turns are exact, and the pose-dependent right-hand sides of a vertex that went act
-on the corners of the triangle that took its place.
+a pixel and of no weight in the energies; with them a fit takes a quarter longer. Which vertices and
+triangles remain is in the model's file (:mod:`fitter.training.shapes.decimation`). The lighter
+model is a SCAPE model of its own on the decimated mean body: its triangles have the deformation
+gradients of the decimated bodies, so shapes and rigid turns are exact, and the pose-dependent
+right-hand sides of a vertex that went act on the corners of the triangle that took its place.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,19 +17,12 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from fitter.arrays import PerVertex, Vertices
-from fitter.body.model import BodyModel, SparseRows
-from fitter.numerics.decimation import Decimated, decimated
+from fitter.body.model import BodyModel, LighterMesh, SparseRows
 from fitter.numerics.meshes import triangle_areas, vertex_areas
 from fitter.numerics.surface_sample import SurfaceSample
 
 Shapes = Float[np.ndarray, "n1 m 3"]
 LighterShapes = Float[np.ndarray, "n1 k 3"]
-
-LONGEST_M = 0.014
-"""Edges of this length and more stay: trunk and limbs keep theirs, 16 to 32 mm."""
-
-ERROR_M = 0.001
-"""How far the mean body's surface may move: a third of a pixel, or a fifth, of usual pictures."""
 
 _OWN_SUPPORT = 8
 """Rows over no more vertices than these keep all of them."""
@@ -44,7 +39,7 @@ class LighterModel:
     Attributes
     ----------
     model
-        On k vertices; ``uv`` and ``mirror``, which only a whole body is used for, say nothing.
+        On k vertices; ``uv``, ``mirror`` and ``lighter`` are for a whole body and say nothing.
     kept
         (k,) the vertices of the whole model, ascending.
     vertex_count
@@ -68,11 +63,9 @@ class LighterModel:
 
 
 def lighter_model(model: BodyModel) -> LighterModel:
-    """Decimate a model's mean body, and express the model on what remains."""
-    held = _held(model)
-    lighter = decimated(
-        model.mean_vertices, model.triangles, held=held, longest=LONGEST_M, error=ERROR_M
-    )
+    """Express a model on its lighter mesh."""
+    lighter = model.lighter
+    held = held_vertices((model.landmarks, model.joint_regressor), len(model.mean_vertices))
     kept = lighter.kept
     shapes = np.concatenate([model.mean_vertices[None], model.shape_basis])
     fitted = _fitted(shapes, lighter, held, vertex_areas(model.mean_vertices, model.triangles))
@@ -101,17 +94,18 @@ def lighter_model(model: BodyModel) -> LighterModel:
     )
 
 
-def _held(model: BodyModel) -> Bool[np.ndarray, " m"]:
-    held = np.zeros(len(model.mean_vertices), dtype=np.bool_)
-    for rows in (model.landmarks, model.joint_regressor):
-        sizes = np.diff(rows.pointers)
-        held[rows.indices[np.repeat(sizes <= _OWN_SUPPORT, sizes)]] = True
+def held_vertices(rows: Sequence[SparseRows], count: int) -> Bool[np.ndarray, " m"]:
+    """Vertices that stay where they are: those of landmarks and joints that have few."""
+    held = np.zeros(count, dtype=np.bool_)
+    for each in rows:
+        sizes = np.diff(each.pointers)
+        held[each.indices[np.repeat(sizes <= _OWN_SUPPORT, sizes)]] = True
     return held
 
 
 def _fitted(
     shapes: Shapes,
-    lighter: Decimated,
+    lighter: LighterMesh,
     held: Bool[np.ndarray, " m"],
     areas: PerVertex,
 ) -> LighterShapes:
@@ -139,7 +133,7 @@ def _fitted(
 
 
 def _triangle_weights(
-    model: BodyModel, lighter: Decimated, fitted: Vertices
+    model: BodyModel, lighter: LighterMesh, fitted: Vertices
 ) -> Float[np.ndarray, " g"]:
     """The weights of the triangles that remain, in proportion to what they have grown to."""
     grown = triangle_areas(fitted, lighter.triangles)
@@ -148,7 +142,7 @@ def _triangle_weights(
 
 
 def _incidences(
-    model: BodyModel, lighter: Decimated
+    model: BodyModel, lighter: LighterMesh
 ) -> tuple[Integer[np.ndarray, " p1"], Integer[np.ndarray, " i"], Float[np.ndarray, "i 3 nine_q"]]:
     """Vertices that each part's triangles touch, or those around one they touched, with terms."""
     pointers = [0]
@@ -180,7 +174,7 @@ def _incidences(
 
 
 def _moved(
-    rows: SparseRows, lighter: Decimated, shapes: Shapes, fitted: LighterShapes
+    rows: SparseRows, lighter: LighterMesh, shapes: Shapes, fitted: LighterShapes
 ) -> SparseRows:
     """The rows over the vertices that remain; on bodies at rest each gives the same point.
 

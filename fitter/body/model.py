@@ -26,6 +26,30 @@ class SparseRows:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LighterMesh:
+    """A mesh of k of the m vertices, on which bodies are searched for.
+
+    Attributes
+    ----------
+    kept
+        (k,) the vertices that remain, ascending.
+    triangles
+        (g, 3) into ``kept``, closed and manifold.
+    origin
+        (g,) the triangle of the whole surface that each was.
+    corners, shares
+        (m, 3) the triangle, into ``kept``, that stands for each vertex, and where in it: its own
+        corner for one that remains, else the nearest of those around the vertex it moved onto.
+    """
+
+    kept: Integer[np.ndarray, " k"]
+    triangles: Triangles
+    origin: Integer[np.ndarray, " g"]
+    corners: Integer[np.ndarray, "m 3"]
+    shares: Float[np.ndarray, "m 3"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BodyModel:
     """A SCAPE model of one gender, in the body frame (metres, y up, z forward), rest pose.
 
@@ -72,6 +96,8 @@ class BodyModel:
         Texture layout of the mesh.
     mirror
         (m,) the vertex on the other side of the body.
+    lighter
+        The mesh of the searches (:mod:`fitter.body.lighter_model`).
     canonical_pose
         (p, 3) arms away from the trunk, for measuring; ``standing_pose`` upright with legs
         straight, for stature.
@@ -98,6 +124,7 @@ class BodyModel:
     uv: Float[np.ndarray, "u 2"]
     uv_triangles: Triangles
     mirror: Integer[np.ndarray, " m"]
+    lighter: LighterMesh
     canonical_pose: Pose
     standing_pose: Pose
 

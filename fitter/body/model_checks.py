@@ -11,7 +11,7 @@ from jaxtyping import Float, Integer
 
 from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 
 GENDERS = ("female", "male")
 
@@ -39,6 +39,11 @@ FIELDS: Mapping[str, tuple[str, tuple[str | int, ...]]] = {
     "uv": ("f", ("u", 2)),
     "uv_triangles": ("i", ("f", 3)),
     "mirror": ("i", ("m",)),
+    "lighter_kept": ("i", ("k",)),
+    "lighter_triangles": ("i", ("g", 3)),
+    "lighter_origin": ("i", ("g",)),
+    "lighter_corners": ("i", ("m", 3)),
+    "lighter_shares": ("f", ("m", 3)),
     "canonical_pose": ("f", ("p", 3)),
     "standing_pose": ("f", ("p", 3)),
 }
@@ -55,6 +60,13 @@ INDEX_BOUNDS: Mapping[str, tuple[int, str]] = {
     "landmark_indices": (0, "m"),
     "uv_triangles": (0, "u"),
     "mirror": (0, "m"),
+}
+
+LIGHTER_BOUNDS: Mapping[str, tuple[int, str]] = {
+    "lighter_kept": (0, "m"),
+    "lighter_triangles": (0, "k"),
+    "lighter_origin": (0, "f"),
+    "lighter_corners": (0, "k"),
 }
 
 HEADER_KEYS = (
@@ -102,14 +114,7 @@ def model_faults(header: Mapping[str, object], arrays: Mapping[str, np.ndarray])
         "l": len(_texts(header["landmark_names"])),
     }
     yield from _field_faults(arrays, sizes)
-    for name, (low, letter) in INDEX_BOUNDS.items():
-        high = 2 * sizes["p"] if letter == "2p" else sizes[letter]
-        outside = (arrays[name] < low) | (arrays[name] >= high)
-        if outside.any():
-            place = _first(outside)
-            yield Fault(
-                name, f"holds index {arrays[name][place]} at {place}, expected [{low}, {high})"
-            )
+    yield from _index_faults(arrays, sizes, INDEX_BOUNDS)
     yield from _surface_faults(arrays)
     yield from _part_faults(arrays)
     for kind, key in (("joint", "part_names"), ("landmark", "landmark_names")):
@@ -123,6 +128,26 @@ def model_faults(header: Mapping[str, object], arrays: Mapping[str, np.ndarray])
         if largest > np.pi + SUM_TOLERANCE:
             yield Fault(
                 name, f"turns a part by {largest:.4g}, expected rotation vectors of at most π"
+            )
+    yield from _index_faults(arrays, sizes, LIGHTER_BOUNDS)
+    lighter = arrays["lighter_triangles"].astype(np.int32)
+    closed = closed_surface_fault(lighter, vertex_count=len(arrays["lighter_kept"]))
+    yield from _named("lighter_triangles", closed)
+    yield from _named("lighter_shares", shares_fault(arrays["lighter_shares"]))
+
+
+def _index_faults(
+    arrays: Mapping[str, np.ndarray],
+    sizes: Mapping[str, int],
+    bounds: Mapping[str, tuple[int, str]],
+) -> Iterator[Fault]:
+    for name, (low, letter) in bounds.items():
+        high = 2 * sizes["p"] if letter == "2p" else sizes[letter]
+        outside = (arrays[name] < low) | (arrays[name] >= high)
+        if outside.any():
+            place = _first(outside)
+            yield Fault(
+                name, f"holds index {arrays[name][place]} at {place}, expected [{low}, {high})"
             )
 
 

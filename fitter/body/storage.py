@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fitter.body.model import BodyModel, SparseRows
+from fitter.body.model import BodyModel, LighterMesh, SparseRows
 from fitter.body.model_checks import FIELDS, FORMAT_VERSION, model_faults
 from fitter.errors import ModelFileError
 from fitter.numerics.array_archive import read_arrays, write_arrays
@@ -129,6 +129,13 @@ def _assemble(header: Mapping[str, object], members: Mapping[str, np.ndarray]) -
         uv=floats("uv"),
         uv_triangles=members["uv_triangles"].astype(np.int32),
         mirror=members["mirror"].astype(np.int32),
+        lighter=LighterMesh(
+            kept=members["lighter_kept"].astype(np.int64),
+            triangles=members["lighter_triangles"].astype(np.int32),
+            origin=members["lighter_origin"].astype(np.int64),
+            corners=members["lighter_corners"].astype(np.int32),
+            shares=floats("lighter_shares"),
+        ),
         canonical_pose=floats("canonical_pose"),
         standing_pose=floats("standing_pose"),
     )

@@ -38,6 +38,7 @@ from fitter.training.articulation.poses import canonical_pose, standing_pose, ta
 from fitter.training.articulation.rigged_bodies import RegisteredBodies
 from fitter.training.makehuman.meshes import BaseMesh
 from fitter.training.shapes.attribute_spaces import attribute_space
+from fitter.training.shapes.decimation import lighter_mesh
 from fitter.training.shapes.height_rotation import Attribute
 from fitter.training.shapes.principal_shapes import principal_shapes, vertex_masses
 
@@ -202,6 +203,7 @@ def learn_body_model(
         uv=mesh.uv,
         uv_triangles=mesh.uv_triangles,
         mirror=mesh.mirror,
+        lighter=lighter_mesh(mean, mesh.triangles, (mesh.landmarks, regressor)),
         canonical_pose=canonical_pose(joints),
         standing_pose=standing_pose(joints),
     )
@@ -259,7 +261,7 @@ def mirrored_example(example: PoseExample, mirror: Integer[np.ndarray, " m"]) ->
 
 
 def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
-    """The fields of a model file (see :mod:`fitter.body.storage`), in single precision."""
+    """The fields of a model file (see :mod:`fitter.body.storage`), most in single precision."""
     integers = {
         "triangles": model.triangles,
         "part_parent": model.part_parent,
@@ -274,6 +276,10 @@ def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
         "landmark_indices": model.landmarks.indices,
         "uv_triangles": model.uv_triangles,
         "mirror": model.mirror,
+        "lighter_kept": model.lighter.kept,
+        "lighter_triangles": model.lighter.triangles,
+        "lighter_origin": model.lighter.origin,
+        "lighter_corners": model.lighter.corners,
     }
     floats = {
         "mean_vertices": model.mean_vertices,
@@ -288,9 +294,11 @@ def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
         "canonical_pose": model.canonical_pose,
         "standing_pose": model.standing_pose,
     }
-    return {name: np.asarray(array, dtype=np.int32) for name, array in integers.items()} | {
-        name: np.asarray(array, dtype=np.float32) for name, array in floats.items()
-    }
+    return (
+        {name: np.asarray(array, dtype=np.int32) for name, array in integers.items()}
+        | {name: np.asarray(array, dtype=np.float32) for name, array in floats.items()}
+        | {"lighter_shares": model.lighter.shares}
+    )
 
 
 def _rooted(

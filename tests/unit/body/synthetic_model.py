@@ -2,8 +2,19 @@
 
 import numpy as np
 
-from fitter.body.model import BodyModel, SparseRows
+from fitter.body.model import BodyModel, LighterMesh, SparseRows
 from fitter.numerics.gradient_operators import gradient_operator
+
+
+def undecimated(triangles: np.ndarray, count: int) -> LighterMesh:
+    """All of a mesh of so many vertices."""
+    return LighterMesh(
+        kept=np.arange(count),
+        triangles=triangles,
+        origin=np.arange(len(triangles)),
+        corners=np.repeat(np.arange(count)[:, None], 3, axis=1),
+        shares=np.tile([1.0, 0.0, 0.0], (count, 1)),
+    )
 
 
 def bar_model(*, seed: int = 0, rings: int = 13, sides: int = 8) -> BodyModel:
@@ -84,6 +95,7 @@ def bar_model(*, seed: int = 0, rings: int = 13, sides: int = 8) -> BodyModel:
         uv=np.zeros((3, 2)),
         uv_triangles=np.zeros_like(triangles),
         mirror=np.arange(count, dtype=np.int32),
+        lighter=undecimated(triangles, count),
         canonical_pose=np.zeros((3, 3)),
         standing_pose=np.zeros((3, 3)),
     )

@@ -280,6 +280,16 @@ FAULTS = {
         "part 0",
     ),
     "a turn beyond pi": (put("standing_pose", (1, 1), 4.0), "standing_pose", "4", "π"),
+    "a vertex no longer there": (put("lighter_corners", (2, 1), 999), "lighter_corners", "999"),
+    "a hole in the lighter mesh": (
+        lambda _, members: members.update(
+            lighter_triangles=members["lighter_triangles"][1:],
+            lighter_origin=members["lighter_origin"][1:],
+        ),
+        "lighter_triangles",
+        "hole",
+    ),
+    "shares of more than a place": (put("lighter_shares", (0, 1), 0.5), "lighter_shares", "1.5"),
 }
 
 
@@ -292,7 +302,15 @@ def test_a_rule_that_is_broken_is_named_with_what_was_found(saved, fault):
 
 def test_a_mesh_in_two_pieces_is_refused(saved):
     """The bar and its copy beside it, closed each for itself."""
-    doubled = ("mean_vertices", "shape_basis", "skinning_parts", "skinning_weights", "mirror")
+    doubled = (
+        "mean_vertices",
+        "shape_basis",
+        "skinning_parts",
+        "skinning_weights",
+        "mirror",
+        "lighter_corners",
+        "lighter_shares",
+    )
 
     def double(_, members):
         m = len(members["mean_vertices"])
@@ -321,7 +339,7 @@ HEADER_FAULTS = {
     "too few names": ("part_names", ["bottom", "top"], "p = 2"),
     "no sources": ("sources", [], "list of names"),
     "a licence without words": ("licences", [" "], "none empty"),
-    "a version in words": ("format_version", "1", "reads 1"),
+    "a version in words": ("format_version", "2", "reads 2"),
 }
 
 

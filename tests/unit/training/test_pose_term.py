@@ -1,5 +1,6 @@
 import numpy as np
 import trimesh
+from fitter.training.shapes.surface import triangle_areas
 
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator, pose_features
@@ -19,6 +20,7 @@ from fitter.training.articulation.pose_term import (
     pose_feature_joints,
     train_pose_term,
 )
+from tests.unit.body.synthetic_model import undecimated
 
 FOOT, SHIN = part_index("left_foot"), part_index("left_shin")
 SPHERE = trimesh.creation.icosphere(subdivisions=4)
@@ -154,6 +156,7 @@ def sphere_model(parts: Parts, term: PoseTerm) -> BodyModel:
         uv=np.zeros((1, 2)),
         uv_triangles=np.zeros_like(TRIANGLES),
         mirror=np.arange(m),
+        lighter=undecimated(TRIANGLES, m),
         canonical_pose=np.zeros((p, 3)),
         standing_pose=np.zeros((p, 3)),
     )

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from fitter.numerics.decimation import Decimated, decimated
+from fitter.body.model import LighterMesh
+from fitter.training.shapes.decimation import decimated
 
 LONGEST, ERROR = 0.3, 0.01
 
@@ -23,7 +24,7 @@ def held(capsule) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def lighter(capsule, held) -> Decimated:
+def lighter(capsule, held) -> LighterMesh:
     return decimated(*capsule, held=held, longest=LONGEST, error=ERROR)
 
 

@@ -1,4 +1,4 @@
-"""Numba kernel of mesh decimation; see :mod:`fitter.numerics.decimation`."""
+"""Numba kernel of mesh decimation; see :mod:`fitter.training.shapes.decimation`."""
 
 from math import sqrt
 from typing import no_type_check
