@@ -28,7 +28,6 @@ from .request import KnownMeasurement as KnownMeasurement
 from .request import LightGuess as LightGuess
 from .request import Paper as Paper
 from .request import Person as Person
-from .request import StartingBody as StartingBody
 from .request import View as View
 from .result import FitResult as FitResult
 from .result import FitStage as FitStage
@@ -87,7 +86,6 @@ __all__ = [
     "Reflectance",
     "Stage",
     "StageBody",
-    "StartingBody",
     "Verdict",
     "View",
     "ViewKind",

@@ -4,10 +4,9 @@ A :class:`Fitter` works with the body models and the detector of its folders. Th
 same names work with those of the packages.
 """
 
-from collections.abc import Callable, Mapping
-from functools import wraps
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Final, ParamSpec, TypeVar
+from typing import Final
 
 from fitter.arrays import Triangles, Vertices
 from fitter.export import artifacts
@@ -82,26 +81,7 @@ class Fitter:
 
 _PACKAGED: Final = Fitter()
 
-Said = ParamSpec("Said")
-Found = TypeVar("Found")
 
-
-def _of_packages(function: Callable[Said, Found]) -> Callable[Said, Found]:
-    """A function without a :class:`Fitter`, which refuses what a Fitter is told, and says so."""
-
-    @wraps(function)
-    def told(*given: Said.args, **named: Said.kwargs) -> Found:
-        for name in ("models", "detector_weights"):
-            if name in named:
-                asked = f"Fitter({name}=...).{function.__name__}(...)"
-                msg = f"{function.__name__}() takes no {name!r}: say {asked}."
-                raise TypeError(msg)
-        return function(*given, **named)
-
-    return told
-
-
-@_of_packages
 def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
     """Fit a body to one to six pictures of a person.
 
@@ -134,7 +114,6 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
     return _PACKAGED.fit(request, observer=observer)
 
 
-@_of_packages
 def measure(person: FittedPerson) -> tuple[Measurement, ...]:
     """All measurements of a fitted person, with standard errors where the fit has a covariance.
 
@@ -158,7 +137,6 @@ def measure(person: FittedPerson) -> tuple[Measurement, ...]:
     return _PACKAGED.measure(person)
 
 
-@_of_packages
 def estimate_body(gender: Gender, known: Mapping[str, float | KnownMeasurement]) -> BodyEstimate:
     """The most probable body with known measurements, without a picture.
 
@@ -185,7 +163,6 @@ def estimate_body(gender: Gender, known: Mapping[str, float | KnownMeasurement])
     return _PACKAGED.estimate_body(gender, known)
 
 
-@_of_packages
 def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Triangles]:
     """A body in its pose (SCAPE, section 3), before the camera.
 
@@ -212,7 +189,6 @@ def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Trian
     return _PACKAGED.body_vertices(gender, body)
 
 
-@_of_packages
 def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
     """Every file of a fit by name: GLB meshes, and pictures drawn over the encoded ``images``.
 

@@ -1,10 +1,8 @@
 """What a fit is asked to do: the person, the pictures of them and the caller's choices."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 
-from fitter.arrays import ShapeCovariance
-from fitter.parameters import BodyParameters
 from fitter.vocabulary.choices import (
     Clothing,
     Cues,
@@ -105,14 +103,6 @@ class Person:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StartingBody:
-    """The person as an earlier fit of the picture found them, and how certain their shape was."""
-
-    body: BodyParameters
-    shape_covariance: ShapeCovariance
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class View:
     """One picture of the person, what is known of it and how it is read.
 
@@ -141,8 +131,6 @@ class View:
         Whether the detector proposes the points that were not clicked.
     slant_hints
         Whether the detector says how limbs slant in depth.
-    start
-        Where the search of this picture begins; None has it begin with the clicks.
     """
 
     image: bytes
@@ -158,7 +146,6 @@ class View:
     complete_clicks: bool = False
     segmentation: SegmentationKind = SegmentationKind.SEEDED_GRABCUT
     slant_hints: bool = True
-    start: StartingBody | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -200,20 +187,8 @@ class Choices:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FitRequest:
-    """One person and the pictures of them: one to six, or more that were fitted before."""
+    """One person and one to six pictures of them."""
 
     person: Person
     views: tuple[View, ...]
     choices: Choices = field(default_factory=Choices)
-
-    def __new__(cls, **said: object) -> "FitRequest":
-        """Refuse what was said of a request until 1.0, and tell where it is said now."""
-        for name in said:
-            for owner in (Person, View, Choices):
-                if name in {each.name for each in fields(owner)}:
-                    msg = (
-                        f"FitRequest() takes no {name!r}: say {owner.__name__}({name}=...), in "
-                        "FitRequest(person=Person(...), views=(View(...),), choices=Choices(...))."
-                    )
-                    raise TypeError(msg)
-        return object.__new__(cls)

@@ -12,7 +12,7 @@ import numpy as np
 from isal import isal_zlib
 from jaxtyping import Float, UInt8
 
-from fitter.arrays import GreyImage, Vertices
+from fitter.arrays import Vertices
 from fitter.export._antialiasing_kernels import levels_of
 from fitter.observation.colour import linear_from_display
 from fitter.render.camera import Camera
@@ -42,13 +42,6 @@ def png(levels: UInt8[np.ndarray, "h w ..."]) -> bytes:
     The same input gives the same bytes.
     """
     return png_file(levels if levels.ndim == 3 else levels[:, :, None])
-
-
-def block_means(picture: GreyImage, factor: int) -> Float[np.ndarray, "h//{factor} w//{factor}"]:
-    """Mean over ``factor`` x ``factor`` blocks: from a supersampled picture to an anti-aliased."""
-    shifts = [(row, column) for row in range(factor) for column in range(factor)]
-    total = sum(picture[row::factor, column::factor] for row, column in shifts)
-    return np.asarray(total) / factor**2
 
 
 def slope_bounds(

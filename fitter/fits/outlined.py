@@ -28,7 +28,7 @@ from fitter.request import Choices, View
 from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
-from fitter.vocabulary.choices import Clothing, OutlineKind
+from fitter.vocabulary.choices import OutlineKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -105,8 +105,6 @@ def outlined(
     with clock.stage(Stage.OBSERVATION):
         observation = observe(view, max_pixels=choices.max_pixels, detector=detector)
     lines_on = _lines_on(observation, choices)
-    if view.start is not None:
-        return _started(view, observation, prepared, view.start.body, lines_on)
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
             prepared.searched.evaluator,
@@ -190,44 +188,6 @@ def outlined(
         limb_facing=limb_facings(hypotheses, tried, view.limb_facing),
         lines_on=lines_on,
         evaluations=evaluations,
-    )
-
-
-def _started(
-    view: View,
-    observation: Observation,
-    prepared: PreparedModel,
-    body: BodyParameters,
-    lines_on: Image | None,
-) -> Outlined:
-    """A picture in which a body was found before."""
-    said_loose = Clothing.LOOSE in observation.clothing.both
-    labels, segmentation = segmented(
-        observation, prepared, body, fitted=True, loosely_dressed=said_loose
-    )
-    objective = silhouette_and_edges(
-        observation, prepared, body, segmentation, boundary_eta_m=NEAR_BOUNDARY_ETA_M
-    )
-    if is_loosely_dressed(objective) and not said_loose:
-        labels, segmentation = segmented(
-            observation, prepared, body, fitted=True, loosely_dressed=True
-        )
-        objective = with_silhouette(objective, segmentation, observation, prepared, body)
-    seen = objective.see(body)
-    objective = objective.doubting(
-        doubtful_outline(objective.evidence.silhouette, seen.rendering, observation.display)
-    )
-    return Outlined(
-        view=view,
-        observation=observation,
-        trimap=labels,
-        segmentation=segmentation,
-        objective=objective,
-        initial=body,
-        body=seen,
-        limb_facing=(),
-        lines_on=lines_on,
-        evaluations=0,
     )
 
 

@@ -38,7 +38,7 @@ from fitter.observation.subject import check_person
 from fitter.optimizer.free_space import held_shape
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
-from fitter.person.several_pictures import MOST_PICTURES, CombinedShape, combined_shape
+from fitter.person.several_pictures import CombinedShape, combined_shape
 from fitter.population.known_person import known_person
 from fitter.request import FitRequest, Paper, View
 from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
@@ -133,17 +133,15 @@ def fit(
 
 
 def _check(request: FitRequest) -> None:
-    begun = bool(request.views) and all(view.start is not None for view in request.views)
-    most = MOST_PICTURES if begun else MOST_VIEWS
-    if not 1 <= len(request.views) <= most:
+    if not 1 <= len(request.views) <= MOST_VIEWS:
         raise InvalidInputError(
             code="views-count",
             field="views",
-            reason=f"A fit has 1 to {most} pictures, not {len(request.views)}.",
+            reason=f"A fit has 1 to {MOST_VIEWS} pictures, not {len(request.views)}.",
             remedy="Send the person from the front and from the side, and more if there are.",
         )
     paper = request.choices.paper
-    if paper is not None and (len(request.views) > 1 or begun):
+    if paper is not None and len(request.views) > 1:
         raise InvalidInputError(
             code="paper-one-picture",
             field="paper",
@@ -202,25 +200,19 @@ def _alone(
 
 
 def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> FittedPerson:
-    """The person as an earlier fit, or the outline, of one picture tells them."""
-    start = picture.view.start
-    if start is not None:
-        body, covariance = start.body, start.shape_covariance
-    else:
-        about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
-        seen = about.evaluate([picture.body])
-        (certain,) = certainty(about, seen)
-        body = picture.body.parameters
-        covariance = shape_covariance(certain, height_variance=subject.known.height_variance)
+    """The person as the outline of one picture tells them."""
+    about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
+    seen = about.evaluate([picture.body])
+    (certain,) = certainty(about, seen)
     return FittedPerson(
         gender=request.person.gender,
         model_checksum=subject.prepared.operators.model.checksum,
-        body=body,
+        body=picture.body.parameters,
         camera=picture.observation.image_camera,
         light=None,
         reflectance=None,
         albedo_rgb=None,
-        shape_covariance=covariance,
+        shape_covariance=shape_covariance(certain, height_variance=subject.known.height_variance),
     )
 
 

@@ -13,7 +13,6 @@ from fitter.arrays import PerVertex, Points2D, Points3D, Triangles, Vector3, Ver
 from fitter.measurement._section_kernels import (
     BORDER_SHARE,
     convex_hull,
-    flatten,
     polygon_length,
     trace_section,
 )
@@ -173,19 +172,9 @@ def _border_point(points: Points3D, shares: Float[np.ndarray, " k"], before: int
     return points[before] + along * (points[before + 1] - points[before])
 
 
-def in_plane(points: Points3D, plane: Plane) -> Points2D:
-    """Coordinates of points along two orthonormal directions of the plane."""
-    return flatten(np.ascontiguousarray(points), plane.point, plane.normal)
-
-
 def hull_indices(points: Points2D) -> Integer[np.ndarray, " corners"]:
     """Which points are corners of the convex hull, counter-clockwise."""
     return convex_hull(np.ascontiguousarray(points))
-
-
-def hull_of(points: Points2D) -> Float[np.ndarray, "corners 2"]:
-    """Corners of the convex hull, counter-clockwise."""
-    return points[hull_indices(points)]
 
 
 def closed_length(points: Float[np.ndarray, "k d"]) -> float:

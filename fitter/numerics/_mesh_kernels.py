@@ -125,29 +125,3 @@ def pull_back_normals(vertices, triangles, pointers, rings, chosen, by_normal, r
             result[a, 0] -= bx + cx
             result[a, 1] -= by + cy
             result[a, 2] -= bz + cz
-
-
-@no_type_check
-@njit(cache=True, fastmath=True)
-def change_of_normals(vertices, triangles, pointers, rings, chosen, moves, result):
-    """Change of the summed cross products at chosen vertices for n fields of motion."""
-    n = moves.shape[0]
-    result[:] = 0.0
-    u = np.empty(3)
-    v = np.empty(3)
-    for i in range(len(chosen)):
-        vertex = chosen[i]
-        for r in range(pointers[vertex], pointers[vertex + 1]):
-            a, b, c = triangles[rings[r]]
-            for k in range(3):
-                u[k] = vertices[b, k] - vertices[a, k]
-                v[k] = vertices[c, k] - vertices[a, k]
-            for j in range(n):
-                for k in range(3):
-                    k1 = (k + 1) % 3
-                    k2 = (k + 2) % 3
-                    du1 = moves[j, b, k1] - moves[j, a, k1]
-                    du2 = moves[j, b, k2] - moves[j, a, k2]
-                    dv1 = moves[j, c, k1] - moves[j, a, k1]
-                    dv2 = moves[j, c, k2] - moves[j, a, k2]
-                    result[i, j, k] += du1 * v[k2] - du2 * v[k1] + u[k1] * dv2 - u[k2] * dv1

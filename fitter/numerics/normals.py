@@ -8,7 +8,6 @@ from jaxtyping import Float, Integer
 from fitter.arrays import Normals, Triangles, Vertices
 from fitter.numerics._mesh_kernels import (
     accumulate_normals,
-    change_of_normals,
     pull_back_normals,
 )
 
@@ -61,21 +60,3 @@ def add_normal_derivative(
     pull_back_normals(
         vertices, triangles, rings.pointers, rings.triangles, chosen, by_normal, by_vertices
     )
-
-
-def normal_change(
-    vertices: Vertices,
-    triangles: Triangles,
-    rings: VertexRings,
-    chosen: Integer[np.ndarray, " k"],
-    moves: Float[np.ndarray, "n m 3"],
-) -> Float[np.ndarray, "k n 3"]:
-    """Change of chosen unit normals per unit of each of n fields of vertex motion."""
-    raw = np.empty((len(chosen), len(moves), 3))
-    change_of_normals(vertices, triangles, rings.pointers, rings.triangles, chosen, moves, raw)
-    sums = summed_cross_products(vertices, triangles)[chosen]
-    length = np.linalg.norm(sums, axis=1, keepdims=True)
-    length = np.where(length > 0.0, length, 1.0)
-    unit = sums / length
-    along = np.einsum("ki,kni->kn", unit, raw)
-    return (raw - along[:, :, None] * unit[:, None, :]) / length[:, :, None]

@@ -1,9 +1,9 @@
 """Compiled rows of the Gauss-Newton matrix: derivatives of residuals by all body parameters.
 
-The result of :func:`fitter.body.tangent.point_jacobian` and ``direction_jacobian`` contracted with
-each row's own derivative, without ever storing those Jacobians. For a camera-frame derivative d at
-a point x, with g = diag(1, -1, -1) d and y the point relative to the root in body axes, a turn of
-joint j about an axis e of its parent changes the residual by
+The Jacobian of points and directions by the linear-blend tangent (:mod:`fitter.body.tangent`)
+contracted with each row's own derivative, without ever storing it. For a camera-frame derivative d
+at a point x, with g = diag(1, -1, -1) d and y the point relative to the root in body axes, a turn
+of joint j about an axis e of its parent changes the residual by
 
     e . ((y - c_j) × g), times how far the point follows joint j.
 

@@ -22,7 +22,7 @@ RowJacobian = Float[np.ndarray, "rows columns"]
 def position_row_jacobian(
     rows: PositionRows, frame: Linearisation, attachments: Attachments, positions: Points3D
 ) -> RowJacobian:
-    """√w ∂r of each row; columns as in :func:`fitter.body.tangent.point_jacobian`.
+    """√w ∂r of each row; columns: pose increments (3 p), translation (3), shape (n).
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ def shading_row_jacobian(
 ) -> RowJacobian:
     """√w ∂r of each row, through the vertex and through its normal.
 
-    The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
-    with the shape as it does on the body at rest. The light moves with the root joint.
+    The normal turns with the body, and changes with the shape as it does on the body at rest. The
+    light moves with the root joint.
     """
     model = operators.model
     rest = model.mean_vertices + np.tensordot(candidate.parameters.shape, model.shape_basis, axes=1)

@@ -16,8 +16,6 @@ from fitter.remarks import FitWarning
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE
 
-INTERVAL_PROBABILITY = 0.95
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EstimatedMeasurement:

@@ -116,11 +116,6 @@ def rig_space(model: BodyModel) -> RigSpace:
     )
 
 
-def rig_of_vertices(model: BodyModel, vertices: Vertices) -> LandmarkRig:
-    """The rig of a body at rest with a model's mesh."""
-    return _rig(model, _vertex_shares(model), vertices)
-
-
 def _rig(model: BodyModel, shares: sparse.csr_array, vertices: Vertices) -> LandmarkRig:
     rest_joints = _weighted_sums(model.joint_regressor, vertices)
     shape = (len(model.landmarks.names), len(model.part_names))

@@ -17,7 +17,7 @@ from fitter.arrays import PerVertex, Triangles, Vertices
 from fitter.body.model import regress
 from fitter.body.pose_prior import mean_pose, prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
-from fitter.body.tangent import attached_rows, linearise, point_jacobian
+from fitter.body.tangent import attached_rows, linearise
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.fits.prepared_model import prepared_model
 from fitter.optimizer.free_space import excess, moved
@@ -34,6 +34,7 @@ from tests.evaluation.closest_points import (
     surface_of,
 )
 from tests.evaluation.joint_figures import Joints
+from tests.unit.body.plain_tangent import point_jacobian
 
 JOINT_SPREAD_M = 0.02
 """Joints of another skeleton lie a centimetre or two from ours."""

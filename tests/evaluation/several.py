@@ -9,8 +9,7 @@ from fitter.body.model import regress
 from fitter.fits.pipeline import fit
 from fitter.measurement.quantity import Measurement
 from fitter.person.fitted_person import FittedPerson
-from fitter.person.several_pictures import known_covariance
-from fitter.request import FitRequest, StartingBody
+from fitter.request import FitRequest
 from fitter.vocabulary.choices import Cues
 from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
@@ -20,7 +19,7 @@ from tests.evaluation.scoring import fit_picture
 from tests.evaluation.suite import case_picture
 from tests.evaluation.true_picture import Told
 from tests.evaluation.truth import TrueBody
-from tests.one_picture import changed, together
+from tests.one_picture import together
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,7 +71,7 @@ def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[Se
             yield _compared([each], each.measurements, (each.posed,), names)
         for count in range(2, len(fits) + 1):
             for chosen in combinations(fits, count):
-                found = fit(together(*(_begun(each) for each in chosen)))
+                found = fit(together(*(each.request for each in chosen)))
                 after = [
                     _posed(view.found.posed_vertices, each.true_joints, each.person)
                     for view, each in zip(found.views, chosen, strict=True)
@@ -92,13 +91,6 @@ def _fitted(case: Case) -> _Fitted:
         true_joints=picture.joints,
         posed=_posed(result.found.posed_vertices, picture.joints, person),
     )
-
-
-def _begun(fitted: _Fitted) -> FitRequest:
-    """The picture again, from the body that its fit found."""
-    person = fitted.person
-    start = StartingBody(body=person.body, shape_covariance=known_covariance(person))
-    return changed(fitted.request, start=start)
 
 
 def _posed(vertices: Vertices, true_joints: Vertices, person: FittedPerson) -> Posed:

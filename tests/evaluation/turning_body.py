@@ -16,7 +16,7 @@ from jaxtyping import UInt8
 from fitter import Click, FitResult, Gender, body_vertices, fit
 from fitter.arrays import Triangles, Vertices
 from fitter.body.scape import CAMERA_AXES
-from fitter.export.display import block_means, to_levels
+from fitter.export.display import to_levels
 from fitter.export.views import turned_about_vertical
 from fitter.observation.colour import display_from_linear
 from fitter.parameters import CameraTilt
@@ -26,6 +26,7 @@ from fitter.render.rasterizer import render, shade_image
 from fitter.training.report.measurement_atlas import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from service.demo_data.sample import load_sample
 from tests.one_picture import one_picture
+from tests.unit.export.plain_pictures import block_means
 
 FILE = Path(__file__).parents[2] / "service" / "page" / "src" / "start" / "turning.webp"
 

@@ -51,7 +51,6 @@ NAMES = [
     "Reflectance",
     "Stage",
     "StageBody",
-    "StartingBody",
     "Verdict",
     "View",
     "ViewKind",
@@ -73,22 +72,6 @@ def test_every_name_is_there_and_explains_itself(name):
     found = getattr(fitter, name)
     assert found.__name__ == name
     assert found.__doc__
-
-
-@pytest.mark.parametrize(
-    ("name", "owner"), [("image", "View"), ("gender", "Person"), ("max_pixels", "Choices")]
-)
-def test_what_a_request_was_told_until_1_0_is_refused_by_where_it_is_told_now(name, owner):
-    with pytest.raises(TypeError, match=rf"no '{name}': say {owner}\({name}=\.\.\.\)"):
-        fitter.FitRequest(**{name: b""})
-    with pytest.raises(TypeError, match="'nonsense'"):
-        fitter.FitRequest(nonsense=1)
-
-
-@pytest.mark.parametrize("name", ["fit", "measure", "estimate_body", "body_vertices", "files_of"])
-def test_folders_that_functions_were_told_until_1_0_are_refused_by_who_is_told_now(name):
-    with pytest.raises(TypeError, match=rf"no 'models': say Fitter\(models=\.\.\.\)\.{name}\("):
-        getattr(fitter, name)(models=None)
 
 
 def test_importing_the_package_loads_no_numerics():

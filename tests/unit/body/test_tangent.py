@@ -3,8 +3,9 @@
 import numpy as np
 
 from fitter.body.scape import ScapeEvaluator, increment
-from fitter.body.tangent import attached_vertices, linearise, point_jacobian, tangent_model
+from fitter.body.tangent import linearise, tangent_model
 from fitter.parameters import BodyParameters
+from tests.unit.body.plain_tangent import attached_vertices, point_jacobian
 from tests.unit.body.synthetic_model import bar_model
 
 

@@ -5,14 +5,7 @@ import numpy as np
 import pytest
 
 from fitter.export._antialiasing_kernels import levels_of
-from fitter.export.display import (
-    block_means,
-    finer,
-    levels_of_linear,
-    png,
-    slope_bounds,
-    to_levels,
-)
+from fitter.export.display import finer, levels_of_linear, png, slope_bounds, to_levels
 from fitter.export.pictures import (
     INNER_COLOUR,
     OUTER_COLOUR,
@@ -28,6 +21,7 @@ from fitter.observation.colour import display_from_linear
 from fitter.render.rasterizer import render
 from fitter.segmentation.trimap import TrimapLabel
 from tests.unit.body.synthetic_model import bar_model
+from tests.unit.export.plain_pictures import block_means
 from tests.unit.export.results import CAMERA, result_of
 from tests.unit.measurement.solids import sphere
 

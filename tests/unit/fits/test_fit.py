@@ -11,7 +11,7 @@ from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import CaptureQuestion, check_picture
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Progress, Stage
-from fitter.request import FitRequest, KnownMeasurement, StartingBody, View
+from fitter.request import FitRequest, KnownMeasurement, View
 from fitter.result import FitResult, before_shading
 from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Verdict
@@ -213,20 +213,12 @@ def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one):
     assert not any("views" in each for each in said)
 
 
-@pytest.mark.parametrize(("count", "begun", "most"), [(0, False, 6), (7, False, 6), (13, True, 12)])
-def test_too_few_and_too_many_views_are_refused(count, begun, most):
-    (view,) = asked(STANDING).views
-    body = StartingBody(body=fit_body(), shape_covariance=np.eye(20)) if begun else None
-    views = (replace(view, start=body),) * count
-    with pytest.raises(InvalidInputError, match=f"1 to {most}") as caught:
+@pytest.mark.parametrize("count", [0, 7])
+def test_too_few_and_too_many_views_are_refused(count):
+    views = asked(STANDING).views * count
+    with pytest.raises(InvalidInputError, match="1 to 6") as caught:
         fit(replace(asked(STANDING), views=views))
     assert (caught.value.code, caught.value.field) == ("views-count", "views")
-
-
-def fit_body():
-    from fitter.parameters import BodyParameters
-
-    return BodyParameters(pose=np.zeros((17, 3)), translation=np.zeros(3), shape=np.zeros(20))
 
 
 def broken(request: FitRequest) -> View:
@@ -326,40 +318,8 @@ def test_the_simplex_searches_several_pictures_too(monkeypatch):
     np.testing.assert_array_equal(one, other)
 
 
-@pytest.fixture(scope="module")
-def fits() -> list[FitResult]:
-    return [fit(asked(name)) for name in (STANDING, TURNED)]
-
-
-def again(fits: list[FitResult], **said: object) -> FitRequest:
-    """The pictures again, each from the body that its own fit found."""
-    requests = [
-        changed(
-            asked(name),
-            start=StartingBody(body=found.person.body, shape_covariance=found.shape_covariance),
-        )
-        for name, found in zip((STANDING, TURNED), fits, strict=True)
-    ]
-    return changed(together(*requests), **said)
-
-
-def test_pictures_that_were_fitted_are_searched_on_from_their_bodies(fits):
-    result = fit(again(fits))
-    assert result.alone is not None
-    # In standard deviations, over twenty axes: the pictures are searched again.
-    away = np.linalg.norm(result.shape - result.alone.shape)
-    assert away < 0.5 * np.sqrt(len(result.shape))
-    assert result.shape[0] == fits[0].shape[0]
-    assert not result.shape_covariance[0].any()
-    for view, before in zip(result.views, fits, strict=True):
-        assert np.trace(result.shape_covariance) < np.trace(before.shape_covariance)
-        moved = view.found.person.body.translation - before.person.body.translation
-        assert np.linalg.norm(moved) < 0.1 * before.person.body.translation[2]
-        assert view.found.silhouette_overlap > 0.9
-        assert view.limb_facing == ()
-
-
-def test_an_unknown_height_leaves_the_shape_less_certain(fits):
-    known, unsure = fit(again(fits)), fit(again(fits, height_m=None))
+def test_an_unknown_height_leaves_the_shape_less_certain():
+    pictures = together(*(asked(name) for name in (STANDING, TURNED)))
+    known, unsure = fit(pictures), fit(changed(pictures, height_m=None))
     assert unsure.shape_covariance[0, 0] > 0.1
     assert np.trace(unsure.shape_covariance) > np.trace(known.shape_covariance)

@@ -12,12 +12,11 @@ from fitter.measurement.plane_cut import (
     Polyline,
     Region,
     hull_indices,
-    hull_of,
-    in_plane,
     plane_section,
     surrounds,
 )
 from fitter.measurement.tape import girth_normal, path_length_m
+from tests.unit.measurement.plain_hull import hull_of, in_plane
 
 
 def plain_tape(

@@ -8,13 +8,12 @@ from scipy.spatial.transform import Rotation
 from fitter.measurement.plane_cut import (
     Plane,
     closed_length,
-    hull_of,
-    in_plane,
     plane_section,
     restricted,
     surrounds,
     whole_mesh,
 )
+from tests.unit.measurement.plain_hull import hull_of, in_plane
 from tests.unit.measurement.solids import prism, sphere, tube
 
 UP = np.array([0.0, 1.0, 0.0])

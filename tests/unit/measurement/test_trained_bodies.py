@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.measurement.affine_body import affine_body
 from fitter.measurement.anthropometry import (
     MeasuringBody,
     measure,
@@ -18,14 +17,14 @@ from fitter.measurement.anthropometry import (
     tape_lines,
 )
 from fitter.measurement.definitions import BackContour, Contour, Girth, Height
-from fitter.measurement.mesh_measurement import in_body_frame, mesh_measurement_values
-from fitter.measurement.plane_cut import Plane, closed_length, hull_of, in_plane, plane_section
+from fitter.measurement.plane_cut import Plane, closed_length, plane_section
 from fitter.measurement.taking import girth_axis, girths_of
 from fitter.measurement.tape import girth_at_m, girth_tape
 from fitter.population.body_estimate import estimate_body
 from fitter.population.measured_population import measured_population
 from fitter.request import KnownMeasurement
 from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+from tests.unit.measurement.plain_hull import hull_of, in_plane
 from tests.unit.measurement.plain_tape import plain_tape
 
 GENDERS = ("female", "male")
@@ -249,59 +248,3 @@ def test_no_measurement_jumps_where_shape_changes_a_little(trained, mean_shape):
             measurement_values(body, shape + step * change) for step in (0.0, 1.0, 2.0)
         )
         assert np.abs(after - 2.0 * between + before).max() < 0.05
-
-
-@pytest.fixture
-def some_shape(mean_shape):
-    return 1.2 * np.random.default_rng(4).normal(size=len(mean_shape))
-
-
-@pytest.fixture
-def poses(trained):
-    """The body in the poses it is measured in: canonical and standing."""
-    _, evaluator, body = trained
-    return body.canonical, affine_body(evaluator, evaluator.model.standing_pose)
-
-
-def test_a_models_own_mesh_measures_as_its_shape_does(trained, poses, some_shape):
-    _, _, body = trained
-    found = mesh_measurement_values(body, *(posed.at(some_shape) for posed in poses))
-    np.testing.assert_allclose(found, measurement_values(body, some_shape), atol=1e-9)
-
-
-def test_a_body_measures_the_same_wherever_its_mesh_lies(trained, poses, some_shape):
-    _, _, body = trained
-    before = measurement_values(body, some_shape)
-    rng = np.random.default_rng(6)
-    for rotation in Rotation.random(10, random_state=6).as_matrix():
-        canonical, standing = (
-            in_body_frame(posed, body, posed.at(some_shape) @ rotation.T + rng.normal(size=3))
-            for posed in poses
-        )
-        after = mesh_measurement_values(body, canonical, standing)
-        np.testing.assert_allclose(after, before, atol=1e-6)
-
-
-def test_a_tenth_of_a_millimetre_of_noise_changes_no_measurement_by_a_millimetre(
-    trained, poses, some_shape
-):
-    _, _, body = trained
-    rng = np.random.default_rng(7)
-    before = measurement_values(body, some_shape)
-    for _ in range(5):
-        canonical, standing = (
-            posed.at(some_shape) + rng.normal(scale=1e-4, size=posed.mean.shape) for posed in poses
-        )
-        after = mesh_measurement_values(body, canonical, standing)
-        assert np.abs(after - before).max() < 0.1
-
-
-def test_a_mirrored_body_measures_the_same(trained, poses, some_shape):
-    """Within 1 mm; the arm within 2.5, because the learned pose term is not quite symmetric."""
-    _, evaluator, body = trained
-    mirror = evaluator.model.mirror
-    canonical, standing = ((posed.at(some_shape) * [-1.0, 1.0, 1.0])[mirror] for posed in poses)
-    after = mesh_measurement_values(body, canonical, standing)
-    changes = by_name(body, np.abs(after - measurement_values(body, some_shape)))
-    assert changes.pop("arm_length") < 0.25
-    assert max(changes.values()) < 0.1

@@ -3,15 +3,11 @@
 import numpy as np
 import pytest
 
-from fitter.body.tangent import (
-    attached_vertices,
-    direction_jacobian,
-    linearise,
-    point_jacobian,
-)
+from fitter.body.tangent import linearise
 from fitter.energies.rows import PositionRows, ShadingRows
-from fitter.numerics.normals import normal_change
 from fitter.optimizer.row_jacobians import position_row_jacobian, scatter, shading_row_jacobian
+from tests.unit.body.plain_tangent import attached_vertices, direction_jacobian, point_jacobian
+from tests.unit.numerics.plain_normals import normal_change
 from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
 
 ROWS = 40
@@ -61,7 +57,7 @@ def test_shading_rows_are_the_dense_jacobians_contracted(scene):
     frame = linearise(tangent, scene.start)
     attachments = attached_vertices(tangent, rows.vertices)
     rest = model.mean_vertices + np.tensordot(scene.start.shape, model.shape_basis, axes=1)
-    change = normal_change(rest, model.triangles, operators.rings, rows.vertices, model.shape_basis)
+    change = normal_change(rest, model.triangles, rows.vertices, model.shape_basis)
     by_normal = direction_jacobian(
         frame, attachments, candidate.rendering.vertex_normals[rows.vertices], change
     )

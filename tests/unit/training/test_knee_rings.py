@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
-from fitter.measurement.plane_cut import Plane, in_plane, plane_section, whole_mesh
+from fitter.measurement.plane_cut import Plane, plane_section, whole_mesh
 from fitter.training.makehuman.body_space import average_traits, source_vertices
 from fitter.training.makehuman.meshes import with_knee_rings
+from tests.unit.measurement.plain_hull import in_plane
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 
 GROUPS = {

@@ -1,6 +1,5 @@
 import numpy as np
 import trimesh
-from fitter.training.shapes.surface import triangle_areas
 
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator, pose_features
