@@ -3,15 +3,14 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
-from api_schemas.known import KnownMeasurements
+from api_schemas.person import Person
 from api_schemas.results import FitWarning
 from fitter.vocabulary.choices import Gender
 
 
-class BodyRequest(KnownMeasurements):
+class BodyRequest(Person):
     """Of whom what is known."""
 
-    gender: Gender
     include_glb: bool = Field(
         default=False,
         description=(

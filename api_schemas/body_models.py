@@ -3,8 +3,8 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
+from api_schemas.picture import Limb
 from api_schemas.points import PointsFormat
-from api_schemas.requests import Limb
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.vocabulary.points import POINT_NAMES

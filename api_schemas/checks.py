@@ -6,8 +6,8 @@ from pydantic import Field
 
 from api_schemas.base import Place, WireModel
 from api_schemas.images import ImageId
-from api_schemas.known import HeightM
-from api_schemas.lens import Lens
+from api_schemas.person import HeightM
+from api_schemas.picture import Lens
 from api_schemas.points import NamedPoint, Points, PointsFormat
 from api_schemas.proposals import PictureSize
 from api_schemas.results import Assumption, Box, Finding, FitWarning

@@ -1,8 +1,8 @@
-"""A client of the HTTP API: send pictures, wait for the job, take its result and files.
+"""A client of the HTTP API: send pictures, wait for the fit, take its result and files.
 
     with Maquette("http://127.0.0.1:8000") as maquette:
-        job = maquette.fit(Path("my.jpg"), {"gender": "female", "height_m": 1.68, "points": "auto"})
-        result = maquette.result(maquette.wait_for(job))
+        fit = maquette.fit({"gender": "female", "height_m": 1.68}, Path("my.jpg"))
+        result = maquette.result(maquette.wait_for(fit))
 
 The service checks requests, and its refusals say which field is at fault; results are of the types
 of this package. ``api_schemas/typescript`` is the same for TypeScript.
@@ -13,24 +13,22 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any, Final, Self, TypeVar, overload
+from typing import Any, Final, Self, TypeVar
 
 import httpx
 from pydantic import BaseModel
 
-from api_schemas.jobs import Job, JobState
+from api_schemas.jobs import Fit, JobState
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.results import FitResult
-from api_schemas.scans import Scan, ScanResult
 
 WAIT_S: Final = 30
-"""How long an answer about a job that was sent waits for its end."""
+"""How long an answer about a fit that was sent waits for its end."""
 
 _POLL_S: Final = 1.0
 _TIMEOUT_S: Final = 60.0
 _ACTIVE: Final = (JobState.QUEUED, JobState.RUNNING)
 
-AnyJob = TypeVar("AnyJob", Job, Scan)
 Model = TypeVar("Model", bound=BaseModel)
 Picture = Path | str | bytes
 """A file, by its path, or its content."""
@@ -39,7 +37,7 @@ Request = BaseModel | Mapping[str, Any]
 
 
 class MaquetteError(Exception):
-    """The service refused a call or does not answer, or a job has no result.
+    """The service refused a call or does not answer, or a fit has no result.
 
     ``problem`` says why and what to do, ``status`` is that of HTTP; both are None where nothing
     answers.
@@ -88,95 +86,60 @@ class Maquette:
 
     def fit(
         self,
-        picture: Picture,
         request: Request,
-        *,
-        mask: Picture | None = None,
+        *pictures: Picture,
+        masks: Sequence[Picture] = (),
         idempotency_key: str | None = None,
-    ) -> Job:
-        """Send one picture, and a mask that is white on the person; the job may have ended.
+    ) -> Fit:
+        """Send one to six pictures, in the order of the request's ``views``; it may have ended.
 
-        The same key with the same content gives the same job, however often it is sent.
+        ``masks`` are none, or one for each picture, white on the person. The same key with the same
+        content gives the same fit, however often it is sent.
         """
-        parts = {"image": picture, "mask": mask}
-        return self._send("/v1/fits", parts, request, Job, idempotency_key)
+        asked = (
+            request.model_dump_json(exclude_unset=True)
+            if isinstance(request, BaseModel)
+            else json.dumps(request)
+        )
+        files = [("request", ("request.json", asked.encode(), "application/json"))]
+        for part, sent in (("image", pictures), ("mask", masks)):
+            files += [(part, (part, _content(each), "application/octet-stream")) for each in sent]
+        headers = {"Prefer": f"wait={WAIT_S}"}
+        if idempotency_key is not None:
+            headers["Idempotency-Key"] = idempotency_key
+        return _read(Fit, self._call("POST", "/v1/fits", files=files, headers=headers))
 
-    def scan(
-        self,
-        pictures: Sequence[Picture],
-        request: Request,
-        *,
-        masks: Sequence[Picture | None] = (),
-        idempotency_key: str | None = None,
-    ) -> Scan:
-        """Send two to six pictures of one person, in the order of the request's ``views``.
-
-        ``masks`` are in the same order, None for pictures without one; the key as for a fit.
-        """
-        parts = {f"image_{number}": picture for number, picture in enumerate(pictures)}
-        parts |= {f"mask_{number}": mask for number, mask in enumerate(masks)}
-        return self._send("/v1/scans", parts, request, Scan, idempotency_key)
-
-    def wait_for(
-        self, job: AnyJob, *, on_progress: Callable[[AnyJob], None] = lambda _: None
-    ) -> AnyJob:
-        """Return the job once it has succeeded.
+    def wait_for(self, fit: Fit, *, on_progress: Callable[[Fit], None] = lambda _: None) -> Fit:
+        """Return the fit once it has succeeded.
 
         Raises
         ------
         MaquetteError
             If it ended otherwise.
         """
-        while job.state in _ACTIVE:
-            on_progress(job)
+        while fit.state in _ACTIVE:
+            on_progress(fit)
             time.sleep(_POLL_S)
-            job = _read(type(job), self._call("GET", job.links.self))
-        if job.state is not JobState.SUCCEEDED:
+            fit = _read(Fit, self._call("GET", fit.links.self))
+        if fit.state is not JobState.SUCCEEDED:
             raise _failure(
-                job.problem, HTTPStatus.CONFLICT, otherwise=f"The job ended as {job.state}."
+                fit.problem, HTTPStatus.CONFLICT, otherwise=f"The fit ended as {fit.state}."
             )
-        return job
+        return fit
 
-    @overload
-    def result(self, job: Job, *, stages: bool = False) -> FitResult: ...
-    @overload
-    def result(self, job: Scan, *, stages: bool = False) -> ScanResult: ...
-    def result(self, job: Job | Scan, *, stages: bool = False) -> FitResult | ScanResult:
-        """Return what a job that succeeded has found; ``stages`` is empty unless asked for."""
+    def result(self, fit: Fit, *, stages: bool = False) -> FitResult:
+        """Return what a fit that succeeded has found; ``stages`` is empty unless asked for."""
         include = {"include": "stages"} if stages else {}
-        answer = self._call("GET", f"{job.links.self}/result", params=include)
-        return _read(FitResult if isinstance(job, Job) else ScanResult, answer)
+        answer = self._call("GET", f"{fit.links.self}/result", params=include)
+        return _read(FitResult, answer)
 
-    def artifact(self, job: Job | Scan, name: str) -> bytes:
-        """Return one of its files, ``overlay.png`` or ``body_posed.obj``."""
-        return self._call("GET", f"{job.links.self}/artifacts/{name}").content
+    def file(self, fit: Fit, name: str) -> bytes:
+        """Return one of its files, ``views/0/overlay.png`` or ``body_canonical.obj``."""
+        return self._call("GET", f"{fit.links.self}/files/{name}").content
 
-    def erase(self, job: Job | Scan) -> None:
+    def erase(self, fit: Fit) -> None:
         """Stop it if it runs, and erase its pictures and results."""
-        self._call("DELETE", job.links.self)
-
-    def _send(
-        self,
-        path: str,
-        pictures: Mapping[str, Picture | None],
-        request: Request,
-        kind: type[Model],
-        idempotency_key: str | None,
-    ) -> Model:
-        asked = (
-            request.model_dump_json(exclude_unset=True)
-            if isinstance(request, BaseModel)
-            else json.dumps(request)
-        )
-        files = {"request": ("request.json", asked.encode(), "application/json")}
-        for name, picture in pictures.items():
-            if picture is not None:
-                content = picture if isinstance(picture, bytes) else Path(picture).read_bytes()
-                files[name] = (name, content, "application/octet-stream")
-        headers = {"Prefer": f"wait={WAIT_S}"}
-        if idempotency_key is not None:
-            headers["Idempotency-Key"] = idempotency_key
-        return _read(kind, self._call("POST", path, files=files, headers=headers))
+        self._call("DELETE", fit.links.self)
 
     def _call(self, method: str, path: str, **sent: Any) -> httpx.Response:
         try:
@@ -195,6 +158,10 @@ class Maquette:
             answer.status_code,
             otherwise=f"The service answered {answer.status_code}.",
         )
+
+
+def _content(picture: Picture) -> bytes:
+    return picture if isinstance(picture, bytes) else Path(picture).read_bytes()
 
 
 def _read(kind: type[Model], answer: httpx.Response) -> Model:

@@ -1,15 +1,10 @@
 """What is derived from a finished fit: a job of its own, by its kind."""
 
-from datetime import datetime
-from enum import StrEnum
 from typing import Annotated, Any, Final, cast
-from uuid import UUID
 
-from pydantic import ConfigDict, Discriminator, Field, RootModel
+from pydantic import ConfigDict, Discriminator, RootModel
 
-from api_schemas.base import WireModel
 from api_schemas.derivation_kinds import AnyDerivationOptions, AnyDerivationResult, DerivationKind
-from api_schemas.jobs import JobStanding, ResourceLinks
 
 
 def _kind(value: Any) -> str | None:
@@ -42,45 +37,3 @@ class DerivationResult(RootModel[Annotated[AnyDerivationResult, BY_KIND]]):
     """``result.json`` of a derivation; ``kind`` says which fields there are."""
 
     model_config = ConfigDict(frozen=True, strict=True)
-
-
-class DerivationLinks(ResourceLinks):
-    """Paths of a derivation's resources below this service's root; absent ones are not (yet)."""
-
-    fit: str = Field(description="The fit it is derived from.")
-
-
-class Derivation(JobStanding):
-    """One accepted derivation; it is erased with its fit, and expires when the fit does."""
-
-    kind: DerivationKind
-    fit_id: UUID
-    links: DerivationLinks
-
-
-class DerivationPage(WireModel):
-    """Derivations of a fit, newest first; ``next`` is the path of the following page."""
-
-    derivations: tuple[Derivation, ...]
-    next: str | None
-
-
-class DerivationEventType(StrEnum):
-    """How the job ended."""
-
-    SUCCEEDED = "derivation.succeeded"
-    FAILED = "derivation.failed"
-    CANCELED = "derivation.canceled"
-    TIMED_OUT = "derivation.timed_out"
-
-
-class DerivationEvent(WireModel):
-    """The body of a notice.
-
-    ``data`` is the derivation as its own path answers it, but for ``webhook``, which is null.
-    ``timestamp`` is when the job ended.
-    """
-
-    type: DerivationEventType
-    timestamp: datetime
-    data: Derivation

@@ -6,7 +6,16 @@ from pydantic import Field, model_validator
 
 from api_schemas.base import WholeNumber, WireModel, refusal
 from api_schemas.images import ImageId
-from api_schemas.requests import SubjectOptions
+from api_schemas.person import Person
+from api_schemas.picture import (
+    POINTS_DESCRIPTION,
+    POINTS_EXAMPLE,
+    LaidOut,
+    Lens,
+    Limb,
+    LimbFacings,
+)
+from api_schemas.points import Points, PointsFormat
 from api_schemas.results import Assumption, BodyResult, CameraResult, FitWarning
 from fitter.vocabulary.choices import Facing, Gender
 from fitter.vocabulary.outcomes import FocalLengthSource
@@ -21,9 +30,12 @@ class ImageSize(WireModel):
     height: WholeNumber = Field(ge=1, le=MAX_SIDE, examples=[960])
 
 
-class InitialPoseRequest(SubjectOptions):
-    """The subject, and the picture: an uploaded one, or its size alone."""
+class InitialPoseRequest(Person, Lens):
+    """Who is in the picture, where the joints are, and the picture: uploaded, or its size alone."""
 
+    points: Points = Field(description=f"{POINTS_DESCRIPTION}.", examples=[POINTS_EXAMPLE])
+    format: LaidOut = PointsFormat.NAMED
+    limb_facing: LimbFacings = Field(default_factory=dict[Limb, Facing])
     image_id: ImageId | None = None
     image_size: ImageSize | None = None
 

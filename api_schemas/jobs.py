@@ -1,4 +1,4 @@
-"""A job as a caller sees it: where it stands, what it reports, where its results are."""
+"""A fit as a caller sees it: where it stands, what it reports, where its results are."""
 
 from datetime import datetime
 from enum import StrEnum
@@ -21,25 +21,19 @@ class JobState(StrEnum):
     TIMED_OUT = "timed_out"
 
 
-class ResourceLinks(WireModel):
-    """Paths of a job's resources below this service's root; absent ones do not exist (yet)."""
+class FitLinks(WireModel):
+    """Paths of a fit's resources below this service's root; absent ones do not exist (yet)."""
 
     self: str
     events: str
     request: str = Field(description="What was asked for.")
-    cancel: str | None = Field(default=None, description="While the job has not ended.")
-    retry: str | None = Field(default=None, description="Once the job has ended.")
-    result: str | None = None
-    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
-
-
-class JobLinks(ResourceLinks):
-    """Paths of a fit's resources below this service's root; absent ones do not exist (yet)."""
-
-    image: str = Field(description="The picture it was made of.")
-    mask: str | None = Field(default=None, description="The mask that was sent, if one was.")
-    derivations: str | None = Field(
-        default=None, description="What was derived from the fit; once it has succeeded."
+    cancel: str | None = Field(default=None, description="While the fit has not ended.")
+    result: str | None = Field(default=None, description="Once it has succeeded.")
+    products: str | None = Field(
+        default=None, description="Where more can be made of it; once it has succeeded."
+    )
+    files: dict[str, str] = Field(
+        description="By name: the pictures and masks that were sent, and those of the result."
     )
 
 
@@ -64,12 +58,18 @@ class WebhookDelivery(WireModel):
     next_attempt_at: datetime | None = Field(description="Null unless it is `due`.")
 
 
-class JobStanding(WireModel):
-    """Where an accepted job stands."""
+class Fit(WireModel):
+    """One accepted fit, and where it stands."""
 
     id: UUID
     state: JobState
     stage: str | None = Field(description="The stage last reported.")
+    view: int | None = Field(
+        description=(
+            "Of several pictures, the one that is searched by itself, from 0 on; null while all "
+            "are searched together, and before and after."
+        )
+    )
     progress: float = Field(ge=0.0, le=1.0, description="The share of the work that is done.")
     attempt: int = Field(ge=0, description="How many times the work was started.")
     cancel_requested: bool
@@ -77,25 +77,20 @@ class JobStanding(WireModel):
     started_at: datetime | None
     finished_at: datetime | None
     expires_at: datetime | None = Field(
-        default=None, description="When the job is erased with all it holds; null if it is kept."
+        description="When the fit is erased with all it holds; null until it has ended."
     )
-    problem: Problem | None = Field(description="Why the job has no result; null unless it failed.")
+    problem: Problem | None = Field(description="Why there is no result; null unless it failed.")
+    label: str | None = Field(description="What the request called the person.")
     webhook: WebhookDelivery | None = Field(
-        default=None, description="The notice of its end; null unless the request asked for one."
+        description="The notice of its end; null unless the request asked for one."
     )
+    links: FitLinks
 
 
-class Job(JobStanding):
-    """One accepted fit."""
+class FitPage(WireModel):
+    """Fits, newest first; ``next`` is the path of the following page."""
 
-    label: str | None = Field(default=None, description="What the request called the person.")
-    links: JobLinks
-
-
-class JobPage(WireModel):
-    """Jobs, newest first; ``next`` is the path of the following page."""
-
-    jobs: tuple[Job, ...]
+    fits: tuple[Fit, ...]
     next: str | None
 
 
@@ -113,7 +108,8 @@ class EventData(WireModel):
     state: JobState
     stage: str | None
     view: int | None = Field(
-        default=None, description="Of a scan, the picture that is searched by itself, from 0 on."
+        default=None,
+        description="Of several pictures, the one that is searched by itself, from 0 on.",
     )
     progress: float = Field(ge=0.0, le=1.0)
     energies: dict[str, float] = Field(default_factory=dict[str, float])

@@ -1,4 +1,4 @@
-"""Labels and names that somebody types and reads again: of a person, a size, a report.
+"""Labels and names that somebody types and reads again: of a person, a size.
 
 They are kept and shown as they were sent, so nothing may be in them that is not seen: it would make
 two of them look alike, turn what follows around, or end a line of somebody's log.
@@ -21,7 +21,7 @@ _UNSEEN: Final = (
 )
 _SPACES: Final = r" \u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 PATTERN: Final = f"^[^{_UNSEEN}]*[^{_UNSEEN}{_SPACES}][^{_UNSEEN}]*$"
-"""Of the labels of fits and scans, as the OpenAPI document of 1.0 has it."""
+"""The labels that the OpenAPI document tells of."""
 
 # Beyond the released pattern: soft hyphens, fillers that look like spaces, marks of annotations,
 # music and languages, and what is no character.
@@ -93,7 +93,7 @@ LabelOfList = Annotated[
 ]
 """A label that is looked for: it may be of 1.0, which knew fewer characters that are not seen."""
 
-LABEL_OF_JOB: Final = (
+LABEL_OF_FIT: Final = (
     "What you call the person, for instance an id of yours: lists can be filtered by it. It is "
-    "kept as it was sent, cannot be changed, and is erased with the job."
+    "kept as it was sent, cannot be changed, and is erased with the fit."
 )

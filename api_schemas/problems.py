@@ -76,7 +76,7 @@ _TYPES: Final = (
         title="There is nothing here",
         status=404,
         description=(
-            "No such path, job, artifact, picture or problem type; erased jobs are not found."
+            "No such path, job, file, picture or problem type; erased jobs are not found."
         ),
     ),
     ProblemType(
@@ -129,9 +129,9 @@ _TYPES: Final = (
     ),
     ProblemType(
         slug="range-not-satisfiable",
-        title="The requested range lies outside the artifact",
+        title="The requested range lies outside the file",
         status=416,
-        description="The Range header asks for bytes the artifact does not have.",
+        description="The Range header asks for bytes the file does not have.",
     ),
     ProblemType(
         slug="invalid-request",

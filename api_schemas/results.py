@@ -1,10 +1,8 @@
 """What a fit gives back: ``result.json``."""
 
-from collections.abc import Mapping
 from enum import StrEnum
-from typing import Any, Final
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from api_schemas.base import WireModel
 from fitter.vocabulary.choices import (
@@ -46,18 +44,18 @@ class FittedCameraResult(CameraResult):
     """The camera of a picture, with how it was held against gravity.
 
     That is told by how the person stands: in the camera frame (x right, y down, z along the view)
-    up is (-sin roll cos pitch, -cos roll cos pitch, sin pitch). Null in results that were made
-    before it was estimated.
+    up is (-sin roll cos pitch, -cos roll cos pitch, sin pitch). Null where the person says nothing
+    of it.
     """
 
     pitch_deg: float | None = Field(
-        default=None, description="Positive where it looks up, negative where it looks down."
+        description="Positive where it looks up, negative where it looks down."
     )
-    pitch_standard_error_deg: float | None = None
+    pitch_standard_error_deg: float | None
     roll_deg: float | None = Field(
-        default=None, description="Positive where it is turned clockwise, seen from behind it."
+        description="Positive where it is turned clockwise, seen from behind it."
     )
-    roll_standard_error_deg: float | None = None
+    roll_standard_error_deg: float | None
 
 
 class StanceResult(WireModel):
@@ -104,20 +102,6 @@ class ReflectanceResult(WireModel):
     mean_specularity: float
 
 
-WITHIN_95: Final = 1.96
-"""So many standard errors to either side hold 95 % of true values."""
-
-
-def _bound(errors: float) -> Any:
-    """What follows from value and error, which alone earlier versions have stored."""
-
-    def said(measured: Mapping[str, Any]) -> float | None:
-        error = measured["standard_error"]
-        return None if error is None else round(measured["value"] + errors * error, 2)
-
-    return Field(default_factory=said)
-
-
 class Measurement(WireModel):
     """One anthropometric measurement in its unit.
 
@@ -125,14 +109,12 @@ class Measurement(WireModel):
     95 % of true values lie between ``low`` and ``high``.
     """
 
-    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
-
     name: str
     value: float
     unit: str
     standard_error: float | None
-    low: float | None = _bound(-WITHIN_95)
-    high: float | None = _bound(WITHIN_95)
+    low: float | None
+    high: float | None
     given: bool = Field(description="Whether the request gave it.")
     definition: str
     source: str
@@ -146,17 +128,6 @@ class StageMeasurement(WireModel):
     unit: str
     standard_error: float | None
     given: bool = Field(description="Whether the request gave it.")
-    # The next version leaves these two out: they stand in the result's own measurements.
-    definition: str = Field(json_schema_extra={"deprecated": True})
-    source: str = Field(json_schema_extra={"deprecated": True})
-
-
-class StageResult(WireModel):
-    """What is the same in all pictures at the end of a stage."""
-
-    name: str
-    energies: dict[str, float]
-    measurements: tuple[StageMeasurement, ...]
 
 
 class StageBody(WireModel):
@@ -166,17 +137,19 @@ class StageBody(WireModel):
     body: BodyResult
 
 
-class Stage(StageBody, StageResult):
-    """The body at the end of a stage of the fit."""
+class Stage(WireModel):
+    """The person at the end of a stage of the fit, and how they then stand in each picture."""
+
+    name: str
+    energies: dict[str, float]
+    measurements: tuple[StageMeasurement, ...]
+    views: tuple[StageBody, ...]
 
 
 class ResultPart(StrEnum):
     """A part of a result that is left out unless it is asked for."""
 
     STAGES = "stages"
-
-
-STAGES: Final = "Empty unless asked for with `include=stages`."
 
 
 class LimbFacing(WireModel):
@@ -204,27 +177,13 @@ class FitWarning(WireModel):
     message: str
 
 
-class Artifact(WireModel):
+class ResultFile(WireModel):
     """A file of the result."""
 
     name: str
     media_type: str
     size: int
     sha256: str
-
-
-class PictureResult(WireModel):
-    """The person in one of several pictures, with the shape that all have in common.
-
-    Its fields are as in the result of a fit.
-    """
-
-    outcome: Outcome
-    image_camera: FittedCameraResult
-    body: BodyResult
-    light: LightResult | None
-    reflectance: ReflectanceResult | None
-    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
 
 
 class Finding(WireModel):
@@ -257,27 +216,48 @@ class WornRegion(WireModel):
     ease_standard_error_cm: float | None
 
 
-class ViewResult(PictureResult):
-    """What a fit finds in one picture."""
+class ViewResult(WireModel):
+    """The person in one of the pictures, with the shape that all have in common.
 
-    outcome_explanation: str
+    ``camera`` belongs to the working picture the fit was made on, ``image_camera`` to the upright
+    original. ``light`` and ``reflectance`` are null for SE, which does not estimate them. The files
+    of the picture have names that begin with its place, ``views/0/overlay.png``.
+    """
+
+    view: ViewKind | None = Field(
+        description="From where the request said that the picture shows the person."
+    )
+    outcome: Outcome
     verdict: Verdict
     camera: FittedCameraResult
+    image_camera: FittedCameraResult
     focal_length_source: FocalLengthSource
+    body: BodyResult
+    light: LightResult | None
+    reflectance: ReflectanceResult | None
+    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
     stance: StanceResult | None
     limb_facing: tuple[LimbFacing, ...]
     findings: tuple[Finding, ...] = Field(
-        description="As of `POST /v1/checks`; what `blocks` withholds the measurements."
+        description=(
+            "As of `POST /v1/checks`; what `blocks` withholds the measurements, what `harms` "
+            "widens those that it harms. Not of checks: `contradicted`, no person was measured; "
+            "`covered`, something is before or beside the person."
+        )
     )
     clothing: tuple[WornRegion, ...] = Field(
-        default=(),
-        exclude_if=lambda worn: not worn,
-        description="Left out where it was said that all clothes are `tight`.",
+        description="Empty where it was said that all clothes are `tight`."
     )
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
 
 
-class PersonResult(WireModel):
-    """What a fit finds out about the person in its pictures."""
+class FitResult(WireModel):
+    """``result.json``: one body, and how it stands in each of the pictures.
+
+    ``assumptions`` and ``warnings`` are of the person and of the fit as a whole; those of a picture
+    are with it in ``views``.
+    """
 
     gender: Gender
     height_m: float
@@ -291,40 +271,21 @@ class PersonResult(WireModel):
             "request did not `force` them."
         )
     )
+    shape: tuple[float, ...]
+    verdict: Verdict = Field(description="The worst of the pictures'.")
+    outcome_explanation: str = Field(description="Of the picture whose verdict is the worst.")
+    agreement: float | None = Field(
+        ge=0.0,
+        le=1.0,
+        description=(
+            "How often pictures of one person, each by itself, give bodies that differ as much as "
+            "these do; below 0.1 a warning names the view that differs most. Null of one picture."
+        ),
+    )
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
+    differences: tuple[str, ...] = Field(description="From the paper, of a fit by its method.")
+    stages: tuple[Stage, ...] = Field(description="Empty unless asked for with `include=stages`.")
     stage_seconds: dict[str, float]
-    artifacts: tuple[Artifact, ...]
-
-
-class FitResult(ViewResult, PersonResult):
-    """The whole result of a fit.
-
-    ``camera`` belongs to the working picture the fit was made on, ``image_camera`` to the upright
-    original. ``light`` and ``reflectance`` are null for SE, which does not estimate them.
-    """
-
-    # What has a default was not written by some earlier version; and of the last two an earlier
-    # version's worker, which refuses what it does not know, is told only what is there to tell.
-    verdict: Verdict = Verdict.PLAUSIBLE
-    stance: StanceResult | None = Field(
-        default=None, description="Null in results that were made before it was estimated."
-    )
-    view: ViewKind | None = Field(
-        default=None,
-        exclude_if=lambda view: view is None,
-        description="From where the request said that the picture shows the person.",
-    )
-    findings: tuple[Finding, ...] = Field(
-        default=(),
-        exclude_if=lambda findings: not findings,
-        description="As of `POST /v1/checks`; what `blocks` withholds the measurements, what "
-        "`harms` widens those that it harms. Not of checks: `contradicted`, no person was "
-        "measured; `covered`, something is before or beside the person.",
-    )
-    stages: tuple[Stage, ...] = Field(description=STAGES)
-    differences: tuple[str, ...] = Field(
-        default=(),
-        exclude_if=lambda differences: not differences,
-        description="From the paper, of a fit by its method.",
-    )
+    files: tuple[ResultFile, ...]
+    views: tuple[ViewResult, ...]

@@ -7,9 +7,9 @@ from typing import Annotated, Final, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
-from api_schemas.known import MeasurementName
 from api_schemas.labels import READABLE, ReadableText
 from api_schemas.measurement_names import unknown_name_remedy
+from api_schemas.person import MeasurementName
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 from fitter.vocabulary.reach import USUAL_REACH, other_unit
 

@@ -1,4 +1,4 @@
-"""Notices of a job's end, signed as Standard Webhooks has it."""
+"""Notices of a fit's end, signed as Standard Webhooks has it."""
 
 import base64
 import binascii
@@ -9,7 +9,7 @@ from typing import Annotated, Final
 from pydantic import AfterValidator, Field
 
 from api_schemas.base import WireModel, refusal
-from api_schemas.jobs import Job
+from api_schemas.jobs import Fit
 
 SECRET_PREFIX: Final = "whsec_"
 MIN_SECRET_BYTES: Final = 24
@@ -46,7 +46,7 @@ def _usable_secret(secret: str) -> str:
 
 
 class WebhookTarget(WireModel):
-    """Where to send the notice of the job's end.
+    """Where to send the notice of the fit's end.
 
     The address must be public: private, loopback and link-local ones are refused, ports other than
     443 and 80 as well, and redirects are not followed. Without a ``secret`` the service's own signs
@@ -69,7 +69,7 @@ class WebhookTarget(WireModel):
 
 
 class WebhookEventType(StrEnum):
-    """How the job ended."""
+    """How the fit ended."""
 
     SUCCEEDED = "fit.succeeded"
     FAILED = "fit.failed"
@@ -80,10 +80,10 @@ class WebhookEventType(StrEnum):
 class WebhookEvent(WireModel):
     """The body of a notice.
 
-    ``data`` is the job as ``GET /v1/fits/{id}`` answers it, but for ``webhook``, which is null: the
-    body is the same at every attempt. ``timestamp`` is when the job ended.
+    ``data`` is the fit as ``GET /v1/fits/{id}`` answers it, but for ``webhook``, which is null: the
+    body is the same at every attempt. ``timestamp`` is when the fit ended.
     """
 
     type: WebhookEventType
     timestamp: datetime
-    data: Job
+    data: Fit

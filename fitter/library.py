@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from fitter.arrays import Triangles, Vertices
-from fitter.export import artifacts
+from fitter.export import result_files
 from fitter.fits import pipeline
 from fitter.fits.equipment import Equipment
 from fitter.fits.progress import Observer, ignore_progress
@@ -76,7 +76,7 @@ class Fitter:
     def files_of(self, result: FitResult, *images: bytes) -> dict[str, bytes]:
         """Every file of a fit by name; see :func:`files_of`."""
         model = self.equipment.model(result.person.gender).operators.model
-        return artifacts(result, model=model, images=images)
+        return result_files(result, model=model, images=images)
 
 
 _PACKAGED: Final = Fitter()

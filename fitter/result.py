@@ -61,7 +61,7 @@ class StageBody:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Pictures:
-    """Arrays the picture artifacts are drawn from, on the working picture (h, w).
+    """Arrays that pictures of the result are drawn from, on the working picture (h, w).
 
     ``trimap`` holds :class:`~fitter.segmentation.trimap.TrimapLabel`; None where the caller sent a
     mask.

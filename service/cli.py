@@ -1,4 +1,4 @@
-"""``maquette serve``, ``fit``, ``scan``, ``check`` and the other commands.
+"""``maquette serve``, ``fit`` and the other commands.
 
 Every command imports what it needs itself: ``maquette --help`` and the processes forked by
 ``maquette worker`` load this module and nothing heavy with it.
@@ -10,12 +10,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final
 
-from service.commands.local_arguments import (
-    add_check_arguments,
-    add_fit_arguments,
-    add_paper_arguments,
-    add_scan_arguments,
-)
 from service.version import VERSION
 
 UNUSABLE: Final = 2
@@ -83,19 +77,40 @@ def _parser() -> argparse.ArgumentParser:
     health.add_argument("--worker", action="store_true", help="ask for the worker, not the API")
     health.set_defaults(command=_health)
 
-    fit = commands.add_parser("fit", help="fit one picture here and now, without a service")
-    add_fit_arguments(fit)
-    fit.set_defaults(command=_fit)
-
-    scan = commands.add_parser("scan", help="measure one person from several pictures here and now")
-    add_scan_arguments(scan)
-    scan.set_defaults(command=_scan)
-
-    check = commands.add_parser(
-        "check", help="say what is wrong with a picture before it is fitted"
+    fit = commands.add_parser("fit", help="fit pictures here and now, without a service")
+    fit.add_argument(
+        "request", type=Path, metavar="REQUEST", help="JSON, as POST /v1/fits takes it"
     )
-    add_check_arguments(check)
-    check.set_defaults(command=_check)
+    fit.add_argument(
+        "pictures",
+        type=Path,
+        nargs="+",
+        metavar="PICTURE",
+        help="one to six, in the order of the request's views: JPEG, PNG, WebP or HEIC",
+    )
+    fit.add_argument(
+        "--mask",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="PICTURE",
+        help="replaces a picture's segmentation: none, or one for each picture",
+    )
+    fit.add_argument(
+        "--format",
+        choices=("obj", "ply", "stl"),
+        action="append",
+        default=[],
+        help="write every mesh in this format too",
+    )
+    fit.add_argument(
+        "--output",
+        type=Path,
+        default=Path("maquette-fit"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
+    fit.set_defaults(command=_fit)
 
     validate = commands.add_parser(
         "validate", help="say how far fits are off on people who were measured with a tape"
@@ -118,7 +133,22 @@ def _parser() -> argparse.ArgumentParser:
     paper = commands.add_parser(
         "paper", help="draw the paper's figures and its table from fits made here and now"
     )
-    add_paper_arguments(paper)
+    for name, shown in (("--picture", "of Figs. 2, 3, 5, 7 and 9"), ("--painting", "of Fig. 10")):
+        paper.add_argument(
+            name,
+            type=Path,
+            nargs=2,
+            metavar=("PICTURE", "REQUEST"),
+            help=f"{shown}, with the JSON of its request",
+        )
+    paper.add_argument("--motion", type=Path, metavar="BVH", help="motion capture, of Fig. 9")
+    paper.add_argument(
+        "--output",
+        type=Path,
+        default=Path("maquette-paper"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
     paper.set_defaults(command=_draw_paper)
 
     demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
@@ -219,69 +249,17 @@ def _fit(parsed: argparse.Namespace) -> int:
     from service.commands.fit import FitArguments, fit_locally
     from service.startup.begin import read_settings
 
+    if parsed.mask and len(parsed.mask) != len(parsed.pictures):
+        print("maquette fit: give no --mask, or one for each picture.", file=sys.stderr)
+        return UNUSABLE
     read_settings("fit")
     return fit_locally(
         FitArguments(
-            image=parsed.image,
-            points=parsed.points,
-            mask=parsed.mask,
-            models=parsed.models,
+            request=parsed.request,
+            pictures=parsed.pictures,
+            masks=parsed.mask,
             output=parsed.output,
-            formats=parsed.formats,
-            overrides=_given(
-                parsed,
-                "gender",
-                "height_m",
-                "weight_kg",
-                "focal_length_px",
-                "focal_length_35mm",
-                "cues",
-                "optimizer",
-                "view",
-            )
-            | {name: True for name in ("complete_points", "force") if getattr(parsed, name)}
-            | _paper(parsed),
-        )
-    )
-
-
-def _paper(parsed: argparse.Namespace) -> dict[str, object]:
-    said = _given(parsed, "energies") | ({"free_height": True} if parsed.free_height else {})
-    return {"paper": said} if said or parsed.paper else {}
-
-
-def _scan(parsed: argparse.Namespace) -> int:
-    from service.commands.scan import ScanArguments, scan_locally
-    from service.startup.begin import read_settings
-
-    read_settings("scan")
-    return scan_locally(
-        ScanArguments(
-            images=parsed.images,
-            views=parsed.views,
-            points=parsed.points,
-            models=parsed.models,
-            output=parsed.output,
-            formats=parsed.formats,
-            overrides=_given(parsed, "gender", "height_m", "weight_kg", "cues", "optimizer")
-            | ({"force": True} if parsed.force else {}),
-            of_all_views=_given(parsed, "focal_length_35mm"),
-        )
-    )
-
-
-def _check(parsed: argparse.Namespace) -> int:
-    from service.commands.check import CheckArguments, check_locally
-    from service.startup.begin import read_settings
-
-    read_settings("check")
-    return check_locally(
-        CheckArguments(
-            image=parsed.image,
-            points=parsed.points,
-            said=_given(
-                parsed, "view", "gender", "height_m", "focal_length_px", "focal_length_35mm"
-            ),
+            formats=parsed.format,
         )
     )
 

@@ -127,7 +127,7 @@ class Settings(BaseSettings):
         ge=1,
         le=1_000_000,
         description=(
-            "Jobs that may wait before new ones are refused (503); a scan counts once for every "
+            "Jobs that may wait before new ones are refused (503); a fit counts once for every "
             "picture."
         ),
     )

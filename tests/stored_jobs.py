@@ -13,8 +13,8 @@ def insert_job(connection: sa.Connection, name: str, **values: Any) -> None:
         "id": name,
         "tenant": "default",
         "kind": "fit",
-        "root": "fit",
         "pictures": 1,
+        "turn": 0,
         "state": "queued",
         "progress": 0.0,
         "attempt": 0,
@@ -23,7 +23,7 @@ def insert_job(connection: sa.Connection, name: str, **values: Any) -> None:
         "created_at": 1.0,
         "options_digest": "0" * 64,
         "inputs": "{}",
-        "artifacts": "[]",
+        "files": "[]",
         "last_event": 0,
     }
     connection.execute(sa.insert(JOBS).values(row | values))

@@ -3,8 +3,12 @@
 import json
 from dataclasses import dataclass
 
+from api_schemas.fit import FitRequest as AskedFit
 from fitter.request import FitRequest
 from fitter.vocabulary.choices import Cues
+from service.jobs.inputs import SentPicture
+from service.submissions.submission import check_submission
+from service.submissions.validation import parsed
 
 SMALL = (120, 160)
 """Of so small a picture a fit by silhouette and edges takes less than a second."""
@@ -29,32 +33,40 @@ class Submission:
 def submission(request: FitRequest) -> Submission:
     """Write a request of the fitter as a caller of the service would."""
     (view,) = request.views
-    options: dict[str, object] = {
-        "gender": request.person.gender.value,
-        "height_m": request.person.height_m,
-        "cues": view.cues.value,
+    said: dict[str, object] = {
         "points": {
             name: {"x": click.x, "y": click.y, "visibility": 1 if click.occluded else 2}
             for name, click in view.clicks.items()
-        },
+        }
     }
     if view.focal_length_px is not None:
-        options["focal_length_px"] = view.focal_length_px
-    return Submission(image=view.image, request=json.dumps(options))
-
-
-def scan_files(sent: Submission) -> dict[str, tuple[str, bytes | str, str]]:
-    """The parts of a scan of one picture seen twice, first from the front."""
-    asked = json.loads(sent.request)
-    seen = {name: asked.pop(name) for name in ("points", "focal_length_px") if name in asked}
-    views = [{"view": kind, **seen} for kind in ("front", "other")]
-    picture = sent.files["image"]
-    request = json.dumps(asked | {"views": views})
-    return {
-        "image_0": picture,
-        "image_1": picture,
-        "request": ("request.json", request, "application/json"),
+        said["focal_length_px"] = view.focal_length_px
+    asked = {
+        "gender": request.person.gender.value,
+        "height_m": request.person.height_m,
+        "cues": view.cues.value,
+        "views": [said],
     }
+    return Submission(image=view.image, request=json.dumps(asked))
+
+
+def checked(request: bytes, *images: bytes, max_pixels: int = 10_000_000) -> AskedFit:
+    """A request as the service understands it, of these pictures."""
+    asked = parsed(AskedFit, request, whole="request", called="the part 'request'")
+    pictures = [SentPicture(image, None) for image in images]
+    return check_submission(asked, pictures, max_pixels=max_pixels).request
+
+
+def seen_twice(sent: Submission) -> list[tuple[str, tuple[str, bytes | str, str]]]:
+    """The parts of a fit of one picture seen twice, first from the front."""
+    asked = json.loads(sent.request)
+    (said,) = asked["views"]
+    request = json.dumps(asked | {"views": [said | {"view": kind} for kind in ("front", "other")]})
+    return [
+        ("image", sent.files["image"]),
+        ("image", sent.files["image"]),
+        ("request", ("request.json", request, "application/json")),
+    ]
 
 
 def small_submissions(count: int) -> list[Submission]:

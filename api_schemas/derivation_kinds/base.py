@@ -5,7 +5,7 @@ from enum import StrEnum
 from pydantic import ConfigDict, Field
 
 from api_schemas.base import WireModel
-from api_schemas.results import Artifact
+from api_schemas.results import ResultFile
 from api_schemas.webhooks import WebhookTarget
 
 
@@ -35,4 +35,4 @@ class DerivedFiles(WireModel):
     # What is always answered is said to be: ``kind`` tells one from another.
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
 
-    artifacts: tuple[Artifact, ...]
+    files: tuple[ResultFile, ...]

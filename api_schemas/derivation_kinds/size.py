@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
-from api_schemas.known import MeasurementName
+from api_schemas.person import MeasurementName
 from api_schemas.problems import FieldProblem
 from api_schemas.results import FitWarning
 from api_schemas.size_chart_csv import MAX_CHART_BYTES, ChartTableError, read_chart

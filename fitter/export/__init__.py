@@ -1,5 +1,5 @@
 """Files for people and programs out of a fit's result."""
 
-from fitter.export.bundle import artifacts, overlay_png, tapes_json, tapes_of
+from fitter.export.bundle import overlay_png, result_files, tapes_json, tapes_of
 
-__all__ = ["artifacts", "overlay_png", "tapes_json", "tapes_of"]
+__all__ = ["overlay_png", "result_files", "tapes_json", "tapes_of"]

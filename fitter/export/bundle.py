@@ -25,15 +25,17 @@ from fitter.render.reflectance import shading_terms
 from fitter.result import FitResult, FittedView, PictureFit, before_shading
 
 
-def artifacts(result: FitResult, *, model: BodyModel, images: Sequence[bytes]) -> dict[str, bytes]:
+def result_files(
+    result: FitResult, *, model: BodyModel, images: Sequence[bytes]
+) -> dict[str, bytes]:
     """Files by name.
 
     Always ``body_canonical.glb``, and of each picture ``body_posed.glb``, ``segmentation.png``,
     ``overlay.png`` and ``views.png``; ``trimap.png`` where the caller sent no mask; ``albedo.png``,
     ``shading.png`` and ``shading_lambertian.png`` where shading was used (Fig. 7), and then the
     bodies before it, ``body_posed_se.glb`` and ``body_canonical_se.glb``, to compare SE with SES
-    (section 6). Where there are several pictures, what belongs to one has its number in its name:
-    ``overlay_0.png``.
+    (section 6). The names of what belongs to a picture begin with its place in the request:
+    ``views/0/overlay.png``.
 
     Parameters
     ----------
@@ -48,22 +50,12 @@ def artifacts(result: FitResult, *, model: BodyModel, images: Sequence[bytes]) -
     outlined = before_shading(result)
     if outlined is not None:
         files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
-    several = len(result.views) > 1
     for number, (view, image) in enumerate(zip(result.views, images, strict=True)):
         of_view = _files_of(view, result.canonical_vertices, model, image)
         if outlined is not None:
             of_view["body_posed_se.glb"] = body_posed_glb(outlined.views[number].found, model)
-        files |= {
-            numbered(name, number) if several else name: content
-            for name, content in of_view.items()
-        }
+        files |= {f"views/{number}/{name}": content for name, content in of_view.items()}
     return files
-
-
-def numbered(name: str, number: int) -> str:
-    """The name of a file of one of several pictures: ``overlay_1.png``."""
-    stem, point, ending = name.partition(".")
-    return f"{stem}_{number}{point}{ending}"
 
 
 def _files_of(

@@ -78,7 +78,11 @@ def fit(
         found = search(pictures, subject.known, held_shape(held, start), request.choices, clock)
         judged = found
     else:
-        pictures = [paper_picture(request.views[0], subject, request.choices, equipment, clock)]
+        try:
+            pictures = [paper_picture(request.views[0], subject, request.choices, equipment, clock)]
+        except InvalidInputError as error:
+            place = "views.0"
+            raise error.within(place) from error
         found = paper_search(pictures[0], subject, paper, request.choices.optimizer, clock)
         subject = with_height_found(subject, paper, found)
         judged = as_judged(subject, found)
@@ -172,7 +176,7 @@ def _subject(request: FitRequest, equipment: Equipment) -> Subject:
 def _outlined(
     request: FitRequest, subject: Subject, equipment: Equipment, clock: StageClock
 ) -> list[Outlined]:
-    """Every picture by itself; a fault of the only one needs no place."""
+    """Every picture by itself."""
     is_only = len(request.views) == 1
     pictures: list[Outlined] = []
     for number, view in enumerate(request.views):
@@ -183,8 +187,6 @@ def _outlined(
                 outlined(view, subject, request.choices, detector, of_view, is_only=is_only)
             )
         except InvalidInputError as error:
-            if is_only:
-                raise
             place = f"views.{number}"
             raise error.within(place) from error
     return pictures

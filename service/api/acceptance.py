@@ -1,39 +1,36 @@
-"""From checked inputs to an accepted job: store its blobs, write its record, await its end."""
+"""From checked inputs to an accepted fit: store its blobs, write its record, await its end."""
 
 import hashlib
 import re
 import time
 from collections.abc import Awaitable, Callable
-from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
-from anyio import to_thread
 from fastapi import Header, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.jobs import JobStanding
+from api_schemas.jobs import Fit
 from api_schemas.problems import problem
 from service.api.context import ApiContext
-from service.api.job_inputs import Inputs, store_inputs
+from service.api.fit_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.storage import disk_full, erase_at_once, storing
-from service.engine.port import Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
-from service.engine.tenant_jobs import TenantJobs
+from service.engine.port import FIT, Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
 from service.jobs.states import ACTIVE
-from service.representation.jobs import POLL_AFTER_S, job_path
+from service.representation.jobs import POLL_AFTER_S, fit_path
 
 MAX_WAIT_S: Final = 60
 
 
-def accepted(kind: type[JobStanding]) -> dict[int | str, dict[str, Any]]:
-    """Describe the answers to an accepted job, for the OpenAPI document."""
+def accepted() -> dict[int | str, dict[str, Any]]:
+    """Describe the answers to an accepted fit, for the OpenAPI document."""
     return {
-        200: {"model": kind, "description": "Ended within the time of `Prefer: wait`."},
+        200: {"model": Fit, "description": "Ended within the time of `Prefer: wait`."},
         202: {
             "description": "Accepted.",
             "headers": {
-                "Location": {"description": "Path of the job.", "schema": {"type": "string"}},
+                "Location": {"description": "Path of the fit.", "schema": {"type": "string"}},
                 "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
             },
         },
@@ -65,32 +62,28 @@ Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`."
 
 async def accept(
     context: ApiContext,
-    jobs: TenantJobs,
     inputs: Inputs,
     *,
     key: Idempotency | None,
     check: Callable[[], Awaitable[None]] | None = None,
 ) -> JobRecord:
-    """Have a job accepted, or return the earlier one with the same key.
+    """Have a fit accepted, or return the earlier one with the same key.
 
-    ``check`` runs only if a new job is about to be accepted.
+    ``check`` runs only if a new fit is about to be accepted.
 
     Raises
     ------
     ProblemError
-        If the job is not accepted.
+        If the fit is not accepted.
     """
-    job_id = str(uuid4())
+    fit_id = str(uuid4())
     with storing():
-        # From here on the job's scope is erased automatically unless the job is accepted.
-        submission = await run_in_threadpool(_reserve, context, jobs, job_id, inputs, key)
+        # From here on the fit's scope is erased automatically unless the fit is accepted.
+        submission = await run_in_threadpool(_reserve, context, fit_id, inputs, key)
         if submission.outcome is SubmitOutcome.ACCEPTED:
             if check is not None:
                 await check()
-            submission = await to_thread.run_sync(
-                partial(_store, context, jobs, job_id, inputs, key),
-                limiter=context.copying if inputs.has_copies else None,
-            )
+            submission = await run_in_threadpool(_store, context, fit_id, inputs, key)
     return _accepted(submission)
 
 
@@ -105,52 +98,41 @@ def idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
 
 
 async def answer(
-    context: ApiContext,
-    jobs: TenantJobs,
-    response: Response,
-    job: JobRecord,
-    *,
-    prefer: str | None,
+    context: ApiContext, response: Response, fit: JobRecord, *, prefer: str | None
 ) -> JobRecord:
-    """Complete the answer about an accepted job, after its end if the caller prefers to wait.
+    """Complete the answer about an accepted fit, after its end if the caller prefers to wait.
 
-    Returns the job in its state by then.
+    Returns the fit in its state by then.
     """
     wait_s = _preferred_wait_s(prefer)
     if wait_s > 0:
-        job = await _wait_for_end(context, jobs, job, wait_s)
+        fit = await _wait_for_end(context, fit, wait_s)
         response.headers["Preference-Applied"] = f"wait={wait_s}"
-    response.headers["Location"] = job_path(job)
-    if job.state in ACTIVE:
+    response.headers["Location"] = fit_path(fit.id)
+    if fit.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     elif wait_s > 0:
         response.status_code = 200
-    return job
+    return fit
 
 
 def _reserve(
-    context: ApiContext, jobs: TenantJobs, job_id: str, inputs: Inputs, key: Idempotency | None
+    context: ApiContext, fit_id: str, inputs: Inputs, key: Idempotency | None
 ) -> Submission:
-    if context.disk.has_room_for(inputs.brought_bytes):
-        return jobs.reserve(job_id, key)
+    if context.disk.has_room_for(inputs.size):
+        return context.jobs.reserve(fit_id, key)
     # Not even the scope is recorded; but repeating an earlier answer takes no space.
-    repeated = jobs.repeated(key)
+    repeated = context.jobs.repeated(key)
     if repeated is None:
         raise disk_full()
     return repeated
 
 
-def _store(
-    context: ApiContext,
-    jobs: TenantJobs,
-    job_id: str,
-    inputs: Inputs,
-    key: Idempotency | None,
-) -> Submission:
-    stored = store_inputs(context, job_id, inputs)
+def _store(context: ApiContext, fit_id: str, inputs: Inputs, key: Idempotency | None) -> Submission:
+    stored = store_inputs(context, fit_id, inputs)
     job = NewJob(
-        id=job_id,
-        kind=inputs.kind,
+        id=fit_id,
+        kind=FIT,
         options=stored.options,
         inputs=stored.files,
         pictures=inputs.pictures,
@@ -160,9 +142,9 @@ def _store(
         webhook=stored.webhook,
     )
     # If the database goes away before it answers, it may have accepted the job: the blobs stay.
-    submission = jobs.submit(job)
+    submission = context.jobs.submit(job)
     if submission.outcome is not SubmitOutcome.ACCEPTED:
-        erase_at_once(context.blobs, job_id)
+        erase_at_once(context.blobs, fit_id)
     return submission
 
 
@@ -212,18 +194,16 @@ def _preferred_wait_s(prefer: str | None) -> int:
     return min(int(found[1]), MAX_WAIT_S) if found else 0
 
 
-async def _wait_for_end(
-    context: ApiContext, jobs: TenantJobs, job: JobRecord, wait_s: int
-) -> JobRecord:
+async def _wait_for_end(context: ApiContext, fit: JobRecord, wait_s: int) -> JobRecord:
     deadline = time.monotonic() + wait_s
     while (
-        job.state in ACTIVE
+        fit.state in ACTIVE
         and not context.feed.is_ending
         and (remaining_s := deadline - time.monotonic()) > 0
     ):
-        await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
-        latest = await run_in_threadpool(jobs.job, job.id)
+        await context.feed.wait_beyond(fit.id, fit.last_event, timeout_s=remaining_s)
+        latest = await run_in_threadpool(context.jobs.job, fit.id)
         if latest is None:
-            raise not_found(what="such job any more")
-        job = latest
-    return job
+            raise not_found(what="such fit any more")
+        fit = latest
+    return fit

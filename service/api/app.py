@@ -7,22 +7,19 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from typing import Any, Final
 
-from anyio import CapacityLimiter
 from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
     bodies,
-    derivations,
     documentation,
+    fits,
     health,
     images,
     initial_poses,
-    jobs,
     openapi,
     page,
     picture_questions,
-    pictures,
     problems,
     submissions,
 )
@@ -33,7 +30,6 @@ from service.api.context import Parts
 from service.api.credentials import KeyUses, KnownKeys
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
-from service.api.job_inputs import COPIED_AT_ONCE
 from service.api.local_guard import LocalGuard
 from service.api.metrics import ServiceMetrics
 from service.api.observation import Observation
@@ -58,9 +54,7 @@ MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 
 _ROUTERS: Final = (
     submissions.ROUTER,
-    jobs.ROUTER,
-    pictures.ROUTER,
-    derivations.ROUTER,
+    fits.ROUTER,
     images.ROUTER,
     picture_questions.ROUTER,
     initial_poses.ROUTER,
@@ -131,7 +125,6 @@ def create_app(
         feed=feed,
         metrics=metrics,
         draining=draining,
-        copying=CapacityLimiter(COPIED_AT_ONCE),
         readiness=Readiness(readiness_checks(engine, blobs, disk)),
     )
     _surround(

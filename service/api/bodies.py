@@ -8,9 +8,9 @@ from fastapi import APIRouter, Request, Response
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.body_models import BodyModels
 from api_schemas.problems import problem
-from service.api.artifacts import BINARY, AcceptHeader
 from service.api.context import Context
 from service.api.estimates import ESTIMATE_PROBLEMS
+from service.api.files import BINARY, AcceptHeader
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError, documented

@@ -1,11 +1,9 @@
 """What the resources share, built once in :func:`service.api.app.create_app`, and for whom."""
 
 import threading
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Final
 
-from anyio import CapacityLimiter
 from fastapi import Depends, Request
 
 from service.api.estimates import Estimates
@@ -15,7 +13,6 @@ from service.api.readiness import Readiness
 from service.blobs import BlobStore
 from service.engine.dbos_jobs import JobEngine
 from service.engine.images import TenantImages
-from service.engine.port import FIT, SCAN
 from service.engine.tenant_jobs import TenantJobs
 from service.process.data_folder import Disk
 from service.settings import Settings
@@ -34,10 +31,7 @@ class Caller:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, disk, estimates and so on; ``draining`` once told to stop.
-
-    ``copying`` lets few requests at once copy what other jobs were made of.
-    """
+    """Settings, engine, blobs, disk, estimates and so on; ``draining`` once told to stop."""
 
     settings: Settings
     engine: JobEngine
@@ -47,16 +41,15 @@ class Parts:
     feed: EventFeed
     metrics: ServiceMetrics
     draining: threading.Event
-    copying: CapacityLimiter
     readiness: Readiness
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext(Parts):
-    """The parts, and for one request its tenant's ``jobs``, fits and scans, and ``images``."""
+    """The parts, and for one request its tenant's ``jobs`` and ``images``."""
 
     tenant: str
-    jobs: Mapping[str, TenantJobs]
+    jobs: TenantJobs
     images: TenantImages
     request_id: str | None
 
@@ -68,7 +61,7 @@ def _context(request: Request) -> ApiContext:
     return ApiContext(
         **{each.name: getattr(parts, each.name) for each in fields(Parts)},
         tenant=caller.tenant,
-        jobs={root: engine.of(caller.tenant, root) for root in (FIT, SCAN)},
+        jobs=engine.of(caller.tenant),
         images=engine.images_of(caller.tenant),
         request_id=getattr(request.state, "request_id", None),
     )

@@ -25,6 +25,7 @@ from service.jobs.inputs import (
     PERSON,
     RESULT,
     SEGMENTATION,
+    of_view,
 )
 
 Options = TypeVar("Options", bound=AnyDerivationOptions)
@@ -68,7 +69,11 @@ def _of_measurements(_: AnyDerivationOptions) -> Needs:
 
 
 def _of_coloured_body(colours: BodyColours) -> tuple[str, ...]:
-    return (PERSON,) if colours is BodyColours.PLAIN else (PERSON, IMAGE, SEGMENTATION)
+    return (
+        (PERSON,)
+        if colours is BodyColours.PLAIN
+        else (PERSON, of_view(0, IMAGE), of_view(0, SEGMENTATION))
+    )
 
 
 def _of_pose(options: PoseOptions) -> Needs:
@@ -86,7 +91,7 @@ def _of_motion(options: AnimationOptions) -> Needs:
 
 def _of_texture(options: TextureOptions) -> Needs:
     if options.colours is not TextureColours.OWN:
-        return Needs(of_fit=(PERSON, IMAGE, SEGMENTATION))
+        return Needs(of_fit=(PERSON, of_view(0, IMAGE), of_view(0, SEGMENTATION)))
     # Who brings the colours needs none of the picture's.
     return Needs(of_fit=(PERSON,), part=ATLAS, part_is_for="these colours are read from")
 

@@ -1,10 +1,9 @@
-"""A job's events as they happen: server-sent events, resumable."""
+"""A fit's events as they happen: server-sent events, resumable."""
 
 import asyncio
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any, Final
-from uuid import UUID
 
 from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
@@ -13,9 +12,7 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import EventData, EventKind
 from service.api.context import ApiContext
-from service.api.job_routes import JOB_PROBLEMS, find
-from service.api.problems import documented
-from service.engine.port import EngineUnavailableError, JobEvent
+from service.engine.port import EngineUnavailableError, JobEvent, JobRecord
 from service.engine.tenant_jobs import TenantJobs
 from service.jobs.states import TERMINAL
 
@@ -29,7 +26,7 @@ ITEMS: Final = "x-itemSchema"
 """OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 this needs an extension."""
 
 _STREAM: Final[dict[str, Any]] = {
-    "description": "Events until the job ends; the last one is `end`.",
+    "description": "Events until the fit ends; the last one is `end`.",
     "content": {
         "text/event-stream": {
             "schema": {"type": "string"},
@@ -54,23 +51,20 @@ _STREAM: Final[dict[str, Any]] = {
 EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
     200: _STREAM,
     204: {
-        "description": "The job has ended, and there is no event after `Last-Event-ID`: an "
+        "description": "The fit has ended, and there is no event after `Last-Event-ID`: an "
         "`EventSource` does not reconnect."
     },
-} | documented(*JOB_PROBLEMS)
+}
 
 
-def event_stream(
-    context: ApiContext, jobs: TenantJobs, job_id: UUID, last_event_id: int | None
-) -> Response:
-    """Answer with the events of a job, as they come; 204 after its end, 404 if there is none."""
-    record = find(jobs, job_id)
+def event_stream(context: ApiContext, record: JobRecord, last_event_id: int | None) -> Response:
+    """Answer with the events of a fit, as they come; 204 after its end."""
     # An event number that never existed: send all that follow.
     seen = min(last_event_id or 0, record.last_event)
     if record.state in TERMINAL and seen == record.last_event:
         return Response(status_code=204)
     return StreamingResponse(
-        _stream(context, jobs, str(job_id), seen),
+        _stream(context, context.jobs, record.id, seen),
         media_type="text/event-stream",
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
     )

@@ -2,7 +2,6 @@
 
 import hashlib
 from datetime import UTC, datetime
-from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
@@ -11,9 +10,8 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.images import ImageId, ImagePage, UploadedImage
 from api_schemas.problems import FieldProblem, problem
-from service.api.artifacts import AcceptHeader
 from service.api.context import ApiContext, Context
-from service.api.job_routes import IfNoneMatch
+from service.api.files import BINARY, NOT_MODIFIED, PICTURES, Wanted, answer_file
 from service.api.json_bodies import JSON, json_content
 from service.api.listing import (
     Limit,
@@ -23,8 +21,8 @@ from service.api.listing import (
     page_of,
     read_cursor,
 )
-from service.api.pictures import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
 from service.api.problems import ProblemError, documented, not_found
+from service.api.renditions import picture_rendition
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
 from service.api.uploads import picture_form, read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
@@ -35,6 +33,7 @@ from service.engine.images import (
     NewImage,
 )
 from service.engine.port import StoredBlob
+from service.jobs.inputs import IMAGE
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 
@@ -45,6 +44,10 @@ CURSOR: Final = cursor_pattern("[0-9a-f]{64}")
 
 _UPLOAD: Final[dict[str, Any]] = {"requestBody": {"required": True, "content": picture_form()}}
 _CONTENT: Final = {JSON: json_content(UploadedImage)}
+_PICTURE: Final[dict[int | str, dict[str, Any]]] = {
+    status: {"description": description, "content": dict.fromkeys(PICTURES, BINARY)}
+    for status, description in ((200, "The whole file."), (206, "The part asked for."))
+}
 _LOCATION: Final = {
     "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}
 }
@@ -133,23 +136,32 @@ def get_image(
 @ROUTER.get(
     "/{image_id}/picture",
     summary="An uploaded picture itself",
-    description=f"Return the picture as it was sent.{AS_JPEG}",
     response_class=Response,
-    responses=PICTURE_ANSWERS,
+    responses=_PICTURE
+    | NOT_MODIFIED
+    | documented(
+        "not-found",
+        "range-not-satisfiable",
+        "invalid-request",
+        "unusable-input",
+        "not-ready",
+        "internal-error",
+    ),
 )
 async def get_picture(
-    image_id: Annotated[ImageId, Path()],
-    context: Context,
-    if_none_match: IfNoneMatch = None,
-    accept: AcceptHeader = None,
+    image_id: Annotated[ImageId, Path()], context: Context, wanted: Wanted
 ) -> Response:
-    """Return the picture as it was sent, or as a JPEG."""
+    """Return the picture as it was sent.
+
+    With `Accept: image/jpeg` a picture of another kind comes as a JPEG, upright and of the same
+    size: most browsers cannot show HEIC.
+    """
     record = await run_in_threadpool(context.images.find, image_id)
     if record is None:
         raise not_found(what="such picture")
-    blob = StoredBlob(digest=record.id, media_type=record.media_type)
-    read = partial(_read, context, record)
-    return await serve_stored_picture(context, blob, read, if_none_match, accept)
+    picture = StoredBlob(digest=record.id, media_type=record.media_type)
+    rendition = picture_rendition(IMAGE, picture, accept=wanted.accept)
+    return await answer_file(context, rendition, lambda _: _read(context, record), wanted)
 
 
 @ROUTER.delete(

@@ -13,22 +13,12 @@ from pydantic.json_schema import models_json_schema
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
-from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
+from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.problems import Problem
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
-from api_schemas.requests import FitOfImage, FitOptions, FitRequest
-from api_schemas.scans import (
-    LEAST_VIEWS,
-    MOST_VIEWS,
-    ScanDerivationEvent,
-    ScanEvent,
-    ScanOfImages,
-    ScanOptions,
-    ScanRequest,
-)
 from api_schemas.webhooks import WebhookEvent
 from fitter.vocabulary.measurements import (
     CHIEF,
@@ -55,21 +45,16 @@ from service.api.problems import documented
 SUMMARY: Final = "Human body shape, pose, light and measurements from a single picture."
 
 DESCRIPTION: Final = """\
-A picture and a few clicked points are posted to `/v1/fits`; the answer is a job, which is \
-followed by its events or looked at now and then. Once it has succeeded, its result and its files \
-are below it, and more can be made of it (derivations). Two to six pictures of one person go to \
-`/v1/scans`. Points, initial poses and bodies are \
-answered at once.
+One to six pictures of a person are posted to `/v1/fits`; the answer is a fit, which is followed \
+by its events or looked at now and then. Once it has succeeded, its result and its files are below \
+it, and more can be made of it (products). Points, initial poses and bodies are answered at once.
 
 Every error is `application/problem+json` and says which field, why, and what to do about it."""
 
 LICENCE: Final[Mapping[str, str]] = {"name": "Apache License 2.0", "identifier": "Apache-2.0"}
 
 TAGS: Final[Sequence[Mapping[str, str]]] = (
-    {"name": "fits", "description": "Jobs that fit a body to a picture."},
-    {"name": "scans", "description": "Jobs that measure a person from several pictures."},
-    {"name": "results", "description": "What a fit that has succeeded found, and its files."},
-    {"name": "derivations", "description": "Jobs that make something of a fit or a scan."},
+    {"name": "fits", "description": "Bodies fitted to one to six pictures, and their files."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
     {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},
     {"name": "body models", "description": "The bodies that are fitted."},
@@ -162,10 +147,7 @@ def _notice(name: str, event: type[BaseModel], summary: str) -> dict[str, Any]:
 
 
 _NOTICES: Final[Mapping[str, tuple[type[BaseModel], str]]] = {
-    "fit-ended": (WebhookEvent, "A job has ended"),
-    "derivation-ended": (DerivationEvent, "A derivation has ended"),
-    "scan-ended": (ScanEvent, "A scan has ended"),
-    "scan-derivation-ended": (ScanDerivationEvent, "A derivation of a scan has ended"),
+    "fit-ended": (WebhookEvent, "A fit has ended"),
 }
 
 
@@ -193,7 +175,7 @@ _LIMITS: dict[str, Any] = {
     "height_m": {"least": LEAST_HEIGHT_M, "most": MOST_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,
     "picture": {"least_side": LEAST_SIDE_PX, "largest_aspect_ratio": LARGEST_ASPECT_RATIO},
-    "views": {"least": LEAST_VIEWS, "most": MOST_VIEWS},
+    "views": {"most": MOST_VIEWS},
 }
 
 
@@ -306,20 +288,14 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
     if mode == "validation":
         return (
             FitRequest,
-            FitOfImage,
             BodyRequest,
             InitialPoseRequest,
             PointsRequest,
             PointsOfImage,
             CheckRequest,
             CheckOfImage,
-            DerivationRequest,
-            ScanRequest,
-            ScanOfImages,
         )
     return (
-        FitOptions,
-        ScanOptions,
         Problem,
         EventData,
         BodyEstimate,
@@ -328,10 +304,6 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
         CaptureCheck,
         UploadedImage,
         WebhookEvent,
-        DerivationEvent,
-        DerivationResult,
-        ScanEvent,
-        ScanDerivationEvent,
     )
 
 

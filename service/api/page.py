@@ -18,7 +18,6 @@ ROUTER: Final = APIRouter(include_in_schema=False)
 
 LINKS: Final = {
     "fits": "/v1/fits",
-    "scans": "/v1/scans",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
     "points": "/v1/points",
@@ -45,7 +44,7 @@ _SAMPLES: Final = {
     "sample.jpg": "sample.jpg",
     "sample.json": "request.json",
     **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
-    **{name: name for name in ("scan_front.jpg", "scan_side.jpg", "measuring_tiles.jpg")},
+    **{name: name for name in ("front.jpg", "side.jpg", "measuring_tiles.jpg")},
 }
 """Sample pictures for users without one of their own, their clicks, and good and bad pictures to
 learn from: the file for each name."""

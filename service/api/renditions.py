@@ -1,21 +1,20 @@
-"""The files of a job that can be requested: as stored, or converted from what is stored.
+"""The files that can be requested: as stored, or converted from what is stored.
 
-Every GLB is also available in other mesh formats, and a result with measurements also as a table.
-Converted files are never stored: an estimator writes them each time, with the same bytes.
+Every GLB is also available in other mesh formats, every picture that was sent as a JPEG, and a
+result's measurements as a table. Converted files are never stored: they are written each time, with
+the same bytes.
 """
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import PurePath
+from pathlib import PurePosixPath
 from typing import Final
 
-from api_schemas.jobs import JobState
 from api_schemas.problems import problem
-from api_schemas.results import Artifact
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
-from service.engine.port import JobRecord
-from service.jobs.inputs import RESULT
+from service.engine.port import StoredBlob
+from service.jobs.inputs import IMAGE, RESULT
 from service.representation.csv_tables import CSV, TABLE
 from service.representation.formats import (
     GLB,
@@ -26,6 +25,7 @@ from service.representation.formats import (
     tag_of,
 )
 
+JPEG: Final = "image/jpeg"
 TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
 """What lies next to a textured mesh, that its material refers to."""
 
@@ -41,93 +41,103 @@ class Rendition:
     name: str
     media_type: str
     tag: str
-    source: Artifact
+    source: StoredBlob
     mesh_format: MeshFormat | None = None
 
 
-def chosen_rendition(record: JobRecord, name: str, *, accept: str | None) -> Rendition:
-    """Find a file by its name; for that of a GLB, in the format that ``accept`` prefers.
+def chosen_rendition(
+    files: Mapping[str, StoredBlob], name: str, *, accept: str | None
+) -> Rendition:
+    """Find a file by its name; for that of a GLB or a picture, in the format ``accept`` prefers.
 
     Raises
     ------
     ProblemError
         404 if nothing has that name, 406 if no accepted format can be written.
     """
-    there_are = {each.name: each for each in renditions(record)}
+    there_are = {each.name: each for each in renditions(files)}
     if name not in there_are:
-        raise _unknown(record, name, there_are)
+        raise _unknown(name, there_are)
+    if is_picture(name):
+        return picture_rendition(name, files[name], accept=accept)
     if not is_negotiated(name):
         return there_are[name]
-    forms = {each.media_type: each for each in _forms_of(there_are[name].source)}
+    forms = {each.media_type: each for each in _forms_of(name, files[name])}
     media_type = preferred(accept, list(forms))
     if media_type is None:
         raise not_acceptable(accept, what=name, offered=list(forms))
     return forms[media_type]
 
 
+def picture_rendition(name: str, picture: StoredBlob, *, accept: str | None) -> Rendition:
+    """A picture as it was sent, or as a JPEG where that is preferred."""
+    sent = _as_stored(name, picture)
+    if picture.media_type == JPEG or preferred(accept, [picture.media_type, JPEG]) != JPEG:
+        return sent
+    return Rendition(name=name, media_type=JPEG, tag=f"{picture.digest}-jpeg", source=picture)
+
+
+def is_picture(name: str) -> bool:
+    """Whether this is the name of a picture that was sent."""
+    return PurePosixPath(name).name == IMAGE
+
+
 def is_negotiated(name: str) -> bool:
     """Whether the answer for this name depends on the Accept header."""
-    return name.endswith(GLB_ENDING)
+    return name.endswith(GLB_ENDING) or is_picture(name)
 
 
-def renditions(record: JobRecord) -> Iterator[Rendition]:
-    """All files of a job that can be requested, each followed by its other formats."""
-    stored = {each.name: each for each in record.artifacts}
-    for artifact in record.artifacts:
-        if artifact.name.endswith(GLB_ENDING):
-            yield from _forms_of(artifact)
-            if not TEXTURE_FILES.isdisjoint(stored):
-                yield _written(artifact, MTL)
+def renditions(files: Mapping[str, StoredBlob]) -> Iterator[Rendition]:
+    """All files that can be requested, each followed by its other formats."""
+    for name, file in files.items():
+        if name.endswith(GLB_ENDING):
+            yield from _forms_of(name, file)
+            if not TEXTURE_FILES.isdisjoint(files):
+                yield _written(name, file, MTL)
         else:
-            yield _as_stored(artifact)
-    if RESULT in stored and record.parent is None:
-        yield Rendition(
-            name=TABLE, media_type=CSV, tag=f"{stored[RESULT].sha256}-csv", source=stored[RESULT]
-        )
+            yield _as_stored(name, file)
+    if RESULT in files:
+        document = files[RESULT]
+        yield Rendition(name=TABLE, media_type=CSV, tag=f"{document.digest}-csv", source=document)
 
 
-def _forms_of(mesh: Artifact) -> Iterator[Rendition]:
-    yield _as_stored(mesh)
+def _forms_of(name: str, mesh: StoredBlob) -> Iterator[Rendition]:
+    yield _as_stored(name, mesh)
     for each in MESH_FORMATS.values():
-        yield _written(mesh, each)
+        yield _written(name, mesh, each)
 
 
-def _as_stored(artifact: Artifact) -> Rendition:
+def _as_stored(name: str, file: StoredBlob) -> Rendition:
+    return Rendition(name=name, media_type=file.media_type, tag=file.digest, source=file)
+
+
+def _written(name: str, mesh: StoredBlob, kind: MeshFormat) -> Rendition:
     return Rendition(
-        name=artifact.name,
-        media_type=artifact.media_type,
-        tag=artifact.sha256,
-        source=artifact,
-    )
-
-
-def _written(mesh: Artifact, kind: MeshFormat) -> Rendition:
-    return Rendition(
-        name=f"{PurePath(mesh.name).stem}.{kind.ending}",
+        name=f"{name.removesuffix(GLB_ENDING)}.{kind.ending}",
         media_type=kind.media_type,
-        tag=tag_of(mesh.sha256, kind),
+        tag=tag_of(mesh.digest, kind),
         source=mesh,
         mesh_format=kind,
     )
 
 
-def _unknown(record: JobRecord, name: str, there_are: Mapping[str, Rendition]) -> ProblemError:
-    if record.state is not JobState.SUCCEEDED:
-        remedy = f"The job is {record.state}; only one that has succeeded has files."
-    else:
-        remedy = f"Ask for {_named(there_are)}."
+def _unknown(name: str, there_are: Mapping[str, Rendition]) -> ProblemError:
     return ProblemError(
-        problem("not-found", detail=f"There is no artifact '{name}' of this job.", remedy=remedy)
+        problem(
+            "not-found",
+            detail=f"There is no file '{name}' here.",
+            remedy=f"Ask for {_named(there_are)}; those of a result are there once it is.",
+        )
     )
 
 
 def _named(there_are: Mapping[str, Rendition]) -> str:
-    """All names, with the endings of a mesh combined: ``body_posed (.glb, .obj, .ply, .stl)``."""
+    """All names, with the endings of a mesh combined: ``body_canonical (.glb, .obj, .stl)``."""
     said: dict[str, list[str]] = {}
     for each in there_are.values():
-        name = PurePath(each.name)
+        name = PurePosixPath(each.name)
         is_mesh = each.source.media_type == GLB
-        said.setdefault(name.stem if is_mesh else each.name, []).extend(
+        said.setdefault(str(name.with_suffix("")) if is_mesh else each.name, []).extend(
             [name.suffix] if is_mesh else []
         )
     return ", ".join(

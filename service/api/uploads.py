@@ -1,6 +1,6 @@
 """Read multipart bodies."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any, Final
 
 from fastapi import Request
@@ -17,14 +17,16 @@ from service.blobs.local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
 FEW_PARTS: Final = 3
-MOST_PARTS: Final = 32
-"""Of a form whose request says what comes with it: more than any such request can ask for."""
 
 MULTIPART: Final = "multipart/form-data"
 MAX_REQUEST_PART_BYTES: Final = 1_000_000
 
-_PICTURE: Final = {"type": "string", "format": "binary", "description": "JPEG, PNG, WebP or HEIC."}
-_PICTURE_TYPES: Final = {"contentType": "image/jpeg, image/png, image/webp, image/heic"}
+PICTURE_TYPES: Final = "image/jpeg, image/png, image/webp, image/heic"
+
+
+def file_part(description: str) -> dict[str, str]:
+    """Describe a part of a form that is a file."""
+    return {"type": "string", "format": "binary", "description": description}
 
 
 async def read_image(request: Request) -> bytes:
@@ -77,39 +79,27 @@ async def read_request_and_files(
     return parts.pop("request"), parts
 
 
-async def read_request_and_some(
-    request: Request, known: Sequence[str]
-) -> tuple[bytes, dict[str, bytes]]:
-    """Read the part ``request`` and what comes with it; which of these should, the request says.
+async def read_fit_form(
+    request: Request, *, most: int
+) -> tuple[bytes, tuple[bytes, ...], tuple[bytes, ...]]:
+    """Read the part ``request``, JSON, and the parts ``image`` and ``mask`` in their order.
 
     Raises
     ------
     ProblemError
-        If the body is not a multipart form, the request is missing, or a part is repeated. Parts
-        that come with a request and are not ``known`` are for the caller to refuse, who has read
-        it.
+        If the body is not a multipart form, a part is missing or unknown, or the request comes more
+        than once. Pictures may be more than ``most`` by one, for the caller to refuse.
     """
-    form = await _form(request, ("request", *known), most=MOST_PARTS)
+    known = ("request", "image", "mask")
+    form = await _form(request, known, most=2 * most + 2)
     try:
-        names = tuple(form) if "request" in form else ("request", *known)
-        _check_parts(form, needed=("request",), known=names)
-        parts = {name: await _content(part) for name, part in form.items()}
+        _check_parts(form, needed=("request", "image"), known=known, single=("request",))
+        (text,) = [await _content(part) for part in form.getlist("request")]
+        images = [await _content(part) for part in form.getlist("image")]
+        masks = [await _content(part) for part in form.getlist("mask")]
     finally:
         await form.close()
-    return parts.pop("request"), parts
-
-
-def check_names(parts: Mapping[str, bytes], *, needed: Sequence[str], known: Sequence[str]) -> None:
-    """Refuse parts that are missing or unknown.
-
-    Raises
-    ------
-    ProblemError
-        With every one of them.
-    """
-    errors = (*_missing(parts, needed), *_unknown(parts, known))
-    if errors:
-        raise ProblemError(field_problem("invalid-request", *errors))
+    return text, tuple(images), tuple(masks)
 
 
 async def _parts(
@@ -117,7 +107,7 @@ async def _parts(
 ) -> dict[str, bytes]:
     form = await _form(request, known, most=FEW_PARTS)
     try:
-        _check_parts(form, needed=needed, known=known)
+        _check_parts(form, needed=needed, known=known, single=known)
         return {name: await _content(part) for name, part in form.items()}
     finally:
         await form.close()
@@ -166,7 +156,9 @@ def _malformed(reason: str, known: Sequence[str]) -> ProblemError:
     )
 
 
-def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str]) -> None:
+def _check_parts(
+    form: FormData, *, needed: Sequence[str], known: Sequence[str], single: Sequence[str]
+) -> None:
     names = [name for name, _ in form.multi_items()]
     errors = [*_missing(names, needed), *_unknown(names, known)]
     errors += [
@@ -177,7 +169,7 @@ def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str])
             remedy="Send it once.",
         )
         for name in dict.fromkeys(names)
-        if name in known and names.count(name) > 1
+        if name in single and names.count(name) > 1
     ]
     if errors:
         raise ProblemError(field_problem("invalid-request", *errors))
@@ -211,8 +203,8 @@ async def _content(part: UploadFile | str) -> bytes:
 
 def picture_form(asked: type[BaseModel] | None = None) -> dict[str, Any]:
     """Content of a body with the part ``image``, and with an optional ``request`` of that type."""
-    properties: dict[str, Any] = {"image": dict(_PICTURE)}
-    encoding: dict[str, Any] = {"image": dict(_PICTURE_TYPES)}
+    properties: dict[str, Any] = {"image": file_part("JPEG, PNG, WebP or HEIC.")}
+    encoding: dict[str, Any] = {"image": {"contentType": PICTURE_TYPES}}
     if asked is not None:
         properties["request"] = json_content(asked)["schema"]
         encoding["request"] = {"contentType": JSON}

@@ -12,7 +12,7 @@ from typing import IO, Final
 import httpx
 from rich.console import Console
 
-from api_schemas.jobs import EventData, EventKind, Job, JobState
+from api_schemas.jobs import EventData, EventKind, Fit, JobState
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.results import FitResult
 from service.commands.terminal import print_problem, print_result, stage_bars
@@ -51,17 +51,17 @@ def run_demo(
             f"The service listens on {client.base_url} ({time.monotonic() - started:.1f} s).",
             highlight=False,
         )
-        job = _submit(client, sample)
-        job = _follow(client, job, console)
-        if job.problem is not None or job.state is not JobState.SUCCEEDED:
-            _tell_failure(console, job)
+        accepted = _submit(client, sample)
+        ended = _follow(client, accepted, console)
+        if ended.problem is not None or ended.state is not JobState.SUCCEEDED:
+            _tell_failure(console, ended)
             return 1
-        result = _keep_files(client, job, output)
+        result = _keep_files(client, ended, output)
     print_result(console, result, truth=sample.truth)
     console.print(
         f"{time.monotonic() - started:.1f} s from start to result. The pictures (overlay.png, "
-        "segmentation.png, albedo.png, shading.png ...), the bodies (body_posed.glb, "
-        f"body_canonical.glb) and result.json lie in {output}/.",
+        "segmentation.png, albedo.png, shading.png ...) and the posed body lie in "
+        f"{output}/views/0, the body (body_canonical.glb) and result.json in {output}.",
         highlight=False,
     )
     return 0
@@ -104,7 +104,7 @@ def _wait_for_worker(client: httpx.Client, process: subprocess.Popen[str]) -> No
     raise ServiceStartError(message)
 
 
-def _submit(client: httpx.Client, sample: Sample) -> Job:
+def _submit(client: httpx.Client, sample: Sample) -> Fit:
     response = client.post(
         "/v1/fits",
         files={
@@ -114,19 +114,19 @@ def _submit(client: httpx.Client, sample: Sample) -> Job:
     )
     if response.headers["content-type"] == PROBLEM_MEDIA_TYPE:
         raise ServiceStartError(Problem.model_validate_json(response.content).detail)
-    return Job.model_validate_json(response.content)
+    return Fit.model_validate_json(response.content)
 
 
-def _follow(client: httpx.Client, job: Job, console: Console) -> Job:
+def _follow(client: httpx.Client, fit: Fit, console: Console) -> Fit:
     with (
         stage_bars(console) as bars,
-        client.stream("GET", job.links.events, timeout=None) as response,
+        client.stream("GET", fit.links.events, timeout=None) as response,
     ):
         for kind, data in _events(response):
             bars.show(data.stage, data.progress)
             if kind is EventKind.END and data.state is JobState.SUCCEEDED:
                 bars.finish()
-    return Job.model_validate_json(client.get(job.links.self).content)
+    return Fit.model_validate_json(client.get(fit.links.self).content)
 
 
 def _events(response: httpx.Response) -> Iterator[tuple[EventKind, EventData]]:
@@ -140,14 +140,16 @@ def _events(response: httpx.Response) -> Iterator[tuple[EventKind, EventData]]:
             fields = {}
 
 
-def _keep_files(client: httpx.Client, job: Job, output: Path) -> FitResult:
-    for name, path in job.links.artifacts.items():
-        (output / name).write_bytes(client.get(path).raise_for_status().content)
-    assert job.links.result is not None
-    return FitResult.model_validate_json(client.get(job.links.result).content)
+def _keep_files(client: httpx.Client, fit: Fit, output: Path) -> FitResult:
+    for name, path in fit.links.files.items():
+        file = output / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(client.get(path).raise_for_status().content)
+    assert fit.links.result is not None
+    return FitResult.model_validate_json(client.get(fit.links.result).content)
 
 
-def _tell_failure(console: Console, job: Job) -> None:
-    console.print(f"The fit {job.state}.")
-    if job.problem is not None:
-        print_problem(console, job.problem)
+def _tell_failure(console: Console, fit: Fit) -> None:
+    console.print(f"The fit {fit.state}.")
+    if fit.problem is not None:
+        print_problem(console, fit.problem)

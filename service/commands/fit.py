@@ -1,74 +1,54 @@
-"""``maquette fit``: fit one picture locally, with the service's checks and pipeline."""
+"""``maquette fit``: fit pictures here and now, with the service's checks and pipeline."""
 
-import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, cast
+from typing import Final, TypeVar
 
-from pydantic import BaseModel
 from rich.console import Console
 
-from api_schemas.points import AUTO
-from api_schemas.problems import Problem, problem
-from api_schemas.requests import FitOptions, FitRequest
-from service.commands.local_work import UNUSABLE_INPUT, fitted, told, write_result
+from api_schemas.fit import FitRequest
+from api_schemas.problems import field_problem
+from fitter.errors import ModelFileError
+from service.commands.terminal import print_problem, print_result, stage_bars
+from service.engine.port import Report
 from service.jobs.inputs import SentPicture
+from service.process.caches import settle_folders
+from service.representation.csv_tables import TABLE, measurements_csv
+from service.representation.formats import GLB_ENDING
+from service.settings import Settings
+from service.submissions.detector import check_detector
 from service.submissions.refusal import RefusedError
+from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
-from service.worker.pipeline_port import PipelineOutput
+from service.worker.files import with_result_document
+from service.worker.pipeline_port import (
+    PipelineInput,
+    PipelineOutput,
+    UnusableInputError,
+    load_pipeline,
+)
 
 PIPELINE: Final = "service.worker.pipeline"
+UNUSABLE_INPUT: Final = 2
+"""Exit status if the input is at fault, as for wrong arguments."""
+
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FitArguments:
-    """The command line's arguments; ``overrides`` replace fields of the points file.
+    """The command line's arguments.
 
-    Without a ``points`` file all points are proposed.
-    ``models`` is the folder of the body models, None for the service's setting; ``formats`` are the
-    endings of what meshes are written as beside GLB.
+    ``request`` is a file with a :class:`~api_schemas.fit.FitRequest` as JSON; ``masks`` are none or
+    as many as pictures; ``formats`` are the endings of what meshes are written as beside GLB.
     """
 
-    image: Path
-    points: Path | None
-    mask: Path | None
-    models: Path | None
+    request: Path
+    pictures: Sequence[Path]
     output: Path
-    overrides: Mapping[str, object]
-    formats: tuple[str, ...] = ()
-
-
-def request_from_file(
-    text: str, overrides: Mapping[str, object], *, kind: type[BaseModel] = FitOptions
-) -> bytes:
-    """Extract the fields of a request from a points file, which may hold other things as well.
-
-    Raises
-    ------
-    RefusedError
-        If the text is not a JSON object.
-    """
-    values = values_from_file(text)
-    known = {name: value for name, value in values.items() if name in kind.model_fields}
-    return json.dumps(known | dict(overrides)).encode()
-
-
-def values_from_file(text: str) -> dict[str, Any]:
-    """Read a points file.
-
-    Raises
-    ------
-    RefusedError
-        If the text is not a JSON object.
-    """
-    try:
-        values = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise RefusedError(_unreadable(str(error))) from error
-    if not isinstance(values, dict):
-        raise RefusedError(_unreadable("it is no object"))
-    return cast("dict[str, Any]", values)
+    masks: Sequence[Path] = ()
+    formats: Sequence[str] = ()
 
 
 def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
@@ -77,28 +57,108 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     output = told(console, lambda: _fit(console, arguments, pipeline=pipeline))
     if output is None:
         return UNUSABLE_INPUT
-    write_result(console, output, arguments.output, formats=arguments.formats)
+    _write_result(console, output, arguments.output, formats=arguments.formats)
     return 0
 
 
 def _fit(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
-    asked = parsed(FitRequest, fit_request(arguments), whole="request", called="what is asked for")
-    mask = None if arguments.mask is None else arguments.mask.read_bytes()
-    picture = SentPicture(arguments.image.read_bytes(), mask)
-    return fitted(console, asked, [picture], models=arguments.models, pipeline=pipeline)
+    asked = read_request(arguments.request)
+    masks = [mask.read_bytes() for mask in arguments.masks] or [None] * len(arguments.pictures)
+    pictures = [
+        SentPicture(picture.read_bytes(), mask)
+        for picture, mask in zip(arguments.pictures, masks, strict=True)
+    ]
+    return fitted(console, asked, pictures, pipeline=pipeline)
 
 
-def fit_request(arguments: FitArguments) -> bytes:
-    """The request that the arguments and the points file make together."""
-    if arguments.points is None:
-        return json.dumps({"points": AUTO} | dict(arguments.overrides)).encode()
-    return request_from_file(arguments.points.read_text(), arguments.overrides)
+def read_request(file: Path) -> FitRequest:
+    """Read a request from a file.
+
+    Raises
+    ------
+    RefusedError
+        If it is not of this type.
+    """
+    return parsed(FitRequest, file.read_bytes(), whole=file.name, called=file.name)
 
 
-def _unreadable(why: str) -> Problem:
-    return problem(
-        "malformed-request",
-        detail=f"The points file cannot be read: {why}.",
-        remedy='Give a JSON file with an object {"points": {"left_shoulder": [x, y], ...}}.',
-        field="points",
-    )
+def told(console: Console, work: Callable[[], Made]) -> Made | None:
+    """Do the work; where the input is at fault, print that and return None."""
+    try:
+        return work()
+    except ModelFileError as error:
+        console.print(f"[bold red]The body model cannot be used.[/] {error}", highlight=False)
+    except OSError as error:
+        console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
+    except RefusedError as error:
+        print_problem(console, error.problem)
+    except UnusableInputError as error:
+        print_problem(console, field_problem("unusable-input", error.error))
+    return None
+
+
+def fitted(
+    console: Console,
+    asked: FitRequest,
+    pictures: Sequence[SentPicture[bytes]],
+    *,
+    pipeline: str = PIPELINE,
+) -> PipelineOutput:
+    """Check and fit as the service does, and show how far it is.
+
+    Raises
+    ------
+    RefusedError, UnusableInputError, ModelFileError
+        As :func:`service.submissions.submission.check_submission` and the pipeline do.
+    """
+    settle_folders()
+    settings = Settings()
+    checked = check_submission(asked, pictures, max_pixels=settings.max_pixels)
+    check_detector(checked.request, settings.detector_dir)
+    with stage_bars(console) as bars:
+        output = load_pipeline(pipeline).run(
+            PipelineInput(
+                request=checked.request,
+                pictures=tuple(pictures),
+                max_pixels=settings.max_pixels,
+                models=settings.models_dir,
+                detector=settings.detector_dir,
+            ),
+            lambda report: bars.show(_stage(report), report.progress),
+        )
+        bars.finish()
+    return output
+
+
+def _stage(report: Report) -> str:
+    return report.stage if report.view is None else f"view {report.view}: {report.stage}"
+
+
+def _write_result(
+    console: Console, output: PipelineOutput, folder: Path, *, formats: Sequence[str]
+) -> None:
+    """Write all files, meshes in these formats too, and the table; and print the result."""
+    documents = with_result_document(output.result, output.files)
+    files = documents | _in_formats(documents, formats)
+    files[TABLE] = measurements_csv(output.result.measurements)
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    print_result(console, output.result)
+    console.print(f"{len(files)} files lie in {folder}.", highlight=False)
+
+
+def _in_formats(files: Mapping[str, bytes], formats: Sequence[str]) -> dict[str, bytes]:
+    """Every mesh in every one of the formats, by file name."""
+    if not formats:
+        return {}
+    # Imported here: its libraries take a moment to load, and most fits do not need them.
+    from fitter.export.formats import converted
+
+    return {
+        f"{name.removesuffix(GLB_ENDING)}.{ending}": converted(content, ending)
+        for name, content in files.items()
+        if name.endswith(GLB_ENDING)
+        for ending in formats
+    }

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from rich.console import Console
 
-from api_schemas.requests import FitRequest
+from api_schemas.fit import FitRequest
 from fitter import request as fitter_request
 from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
@@ -17,14 +17,12 @@ from fitter.reproduction.drawing import Pictures, Reproduction, reproduce
 from fitter.reproduction.figure import Figure
 from fitter.reproduction.index import PRINTED_TABLE, index_html, table_csv
 from fitter.reproduction.subject import PosedTruth, Subject
-from service.commands.fit import request_from_file
-from service.commands.local_work import UNUSABLE_INPUT, told
-from service.demo_data.sample import PictureSample, load_sample, load_subject
+from service.commands.fit import UNUSABLE_INPUT, read_request, told
+from service.demo_data.sample import load_sample, load_subject
 from service.jobs.inputs import SentPicture
 from service.process.caches import settle_folders
 from service.settings import Settings
 from service.submissions.submission import check_submission
-from service.submissions.validation import parsed
 from service.worker import translate
 from service.worker.pipeline_port import UnusableInputError
 
@@ -36,7 +34,7 @@ _HIDING: Final = "occluded"
 class PaperArguments:
     """The command line's arguments: what takes the place of the packaged pictures, and is added.
 
-    ``picture`` and ``painting`` are each an image and a points file that is a whole request.
+    ``picture`` and ``painting`` are each a picture and a file with its request.
     """
 
     output: Path
@@ -64,10 +62,14 @@ def packaged_pictures(settings: Settings) -> Pictures:
         step_m = float(bodies["step_m"])
         true = {name: step_m * bodies[name] for name in ("canonical", *subject.pictures)}
     return Pictures(
-        portrait=_request(PictureSample(image=sample.image, request=sample.request), settings),
+        portrait=_request(sample.image, _packaged(sample.request), settings),
         subject=Subject(
             pictures=tuple(
-                PosedTruth(name=name, request=_request(picture, settings), posed=true[name])
+                PosedTruth(
+                    name=name,
+                    request=_request(picture.image, _packaged(picture.request), settings),
+                    posed=true[name],
+                )
                 for name, picture in subject.pictures.items()
             ),
             canonical=true["canonical"],
@@ -81,10 +83,10 @@ def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> R
     settle_folders()
     pictures = packaged_pictures(settings)
     given = {
-        name: _request(PictureSample(image=image.read_bytes(), request=_asked(points)), settings)
+        name: _request(image.read_bytes(), read_request(request), settings)
         for name, files in (("portrait", arguments.picture), ("painting", arguments.painting))
         if files is not None
-        for image, points in [files]
+        for image, request in [files]
     }
     pictures = replace(pictures, **given)
     arguments.output.mkdir(parents=True, exist_ok=True)
@@ -102,13 +104,12 @@ def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> R
         raise UnusableInputError(translate.field_problem(error)) from error
 
 
-def _asked(points: Path) -> bytes:
-    return request_from_file(points.read_text(), {})
+def _packaged(request: bytes) -> FitRequest:
+    return FitRequest.model_validate_json(request)
 
 
-def _request(picture: PictureSample, settings: Settings) -> fitter_request.FitRequest:
+def _request(picture: bytes, asked: FitRequest, settings: Settings) -> fitter_request.FitRequest:
     """Check a request as the service does, and translate it."""
-    asked = parsed(FitRequest, picture.request, whole="request", called="what is asked for")
-    sent = [SentPicture(picture.image, None)]
+    sent = [SentPicture(picture, None)]
     checked = check_submission(asked, sent, max_pixels=settings.max_pixels)
-    return translate.fit_request(checked.options, sent, max_pixels=settings.max_pixels)
+    return translate.fit_request(checked.request, sent, max_pixels=settings.max_pixels)

@@ -1,9 +1,10 @@
 """The file of ``maquette validate``: a row for each fit of a person, with what tapes say.
 
 Columns ``person``, ``gender``, ``height_cm`` and ``picture`` are needed. ``side_picture`` makes the
-row a scan. ``points`` and ``side_points`` name JSON files as of ``maquette fit``; without them all
-points are proposed. ``focal_length_35mm`` and ``clothing`` are as in a request. Every other column
-is a measurement by its name, in centimetres or kilograms; ``NAME_2`` is a second reading.
+row a fit of two. ``points`` and ``side_points`` name JSON files with the points of a request;
+without them all are proposed. ``focal_length_35mm`` and ``clothing`` are as in a request. Every
+other column is a measurement by its name, in centimetres or kilograms; ``NAME_2`` is a second
+reading.
 """
 
 import csv

@@ -9,15 +9,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 from rich.table import Table
 
 from api_schemas.problems import Problem
-from api_schemas.results import (
-    Assumption,
-    Finding,
-    FitResult,
-    FitWarning,
-    Measurement,
-    ViewResult,
-)
-from api_schemas.scans import ScanResult
+from api_schemas.results import Assumption, Finding, FitResult, FitWarning, Measurement
 from fitter.vocabulary.measurements import group_of
 from fitter.vocabulary.outcomes import Severity
 
@@ -77,37 +69,30 @@ def print_problem(console: Console, problem: Problem) -> None:
 
 
 def print_result(
-    console: Console,
-    result: FitResult | ScanResult,
-    *,
-    truth: Mapping[str, float] | None = None,
+    console: Console, result: FitResult, *, truth: Mapping[str, float] | None = None
 ) -> None:
     """Print the measurements of SE and SES, next to the truth if there is one, and remarks."""
     if result.measurements:
         console.print(_measurements(result, truth or {}))
     else:
         console.print(WITHHELD)
-    if isinstance(result, FitResult):
-        console.print(f"Outcome: {_ended(result)}", highlight=False)
-        _print_findings(console, result.findings)
-    else:
-        for view in result.views:
-            console.print(f"View {view.number}, {view.view}: {_ended(view)}", highlight=False)
-            _print_findings(console, view.findings)
-            _print_remarks(console, view.assumptions, view.warnings)
+    console.print(f"Verdict: {result.verdict} ({result.outcome_explanation})", highlight=False)
+    for number, view in enumerate(result.views):
+        shown = "" if view.view is None else f", {view.view}"
+        console.print(
+            f"View {number}{shown}: {view.outcome}, {view.verdict}. "
+            f"Silhouette overlap {view.silhouette_overlap:.3f}.",
+            highlight=False,
+        )
+        _print_findings(console, view.findings)
+        _print_remarks(console, view.assumptions, view.warnings)
+    if result.agreement is not None:
         console.print(f"Agreement of the views {result.agreement:.2f}.", highlight=False)
     console.print(
         f"{result.evaluations} evaluations, {sum(result.stage_seconds.values()):.1f} s.",
         highlight=False,
     )
     _print_remarks(console, result.assumptions, result.warnings)
-
-
-def _ended(view: ViewResult) -> str:
-    return (
-        f"{view.outcome}, {view.verdict} ({view.outcome_explanation}) "
-        f"Silhouette overlap {view.silhouette_overlap:.3f}."
-    )
 
 
 def _print_findings(console: Console, findings: Iterable[Finding]) -> None:
@@ -138,7 +123,7 @@ def _spread(measurement: Measurement) -> str:
     return "given" if measurement.given and shown == "0.0" else shown
 
 
-def _measurements(result: FitResult | ScanResult, truth: Mapping[str, float]) -> Table:
+def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
     unshaded = next(
         (
             {each.name: each.value for each in stage.measurements}

@@ -1,6 +1,7 @@
 """``maquette validate``: how far fits are off on people who were measured with a tape."""
 
 import csv
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,18 +9,16 @@ from typing import Final
 
 from rich.console import Console
 
-from api_schemas.problems import field_problem
-from api_schemas.requests import FitRequest
-from api_schemas.scans import ScanRequest
+from api_schemas.fit import FitRequest
+from api_schemas.problems import field_problem, problem
 from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
 from fitter.request import KnownMeasurement
+from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
-from service.commands.fit import PIPELINE, FitArguments, fit_request
-from service.commands.local_work import UNUSABLE_INPUT, fitted, told
+from service.commands.fit import PIPELINE, UNUSABLE_INPUT, fitted, told
 from service.commands.people_file import MeasuredPerson, read_people
-from service.commands.scan import ScanArguments, scan_request
 from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
@@ -31,6 +30,10 @@ NULLS: Final[Mapping[str, tuple[str, ...]]] = {
     "height and weight": (STATURE, WEIGHT),
 }
 """What is known where no picture is looked at."""
+
+
+VIEWS: Final = (ViewKind.FRONT, ViewKind.SIDE)
+"""What the pictures of a row show, where it has two."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +56,7 @@ def validate(
     fits: list[_Fit] = []
     for number, person in enumerate(people, start=1):
         console.print(f"Fit {number} of {len(people)}: {person.person}", highlight=False)
-        fits.append(_fit(console, person, models=models, pipeline=pipeline))
+        fits.append(_fit(console, person, pipeline=pipeline))
     report = _report(fits, models)
     output.mkdir(parents=True, exist_ok=True)
     (output / REPORT).write_text(report)
@@ -63,10 +66,10 @@ def validate(
     return 0
 
 
-def _fit(console: Console, person: MeasuredPerson, *, models: Path | None, pipeline: str) -> _Fit:
+def _fit(console: Console, person: MeasuredPerson, *, pipeline: str) -> _Fit:
     pictures = [SentPicture(path.read_bytes(), None) for path in person.pictures]
     try:
-        output = fitted(console, _asked(person), pictures, models=models, pipeline=pipeline)
+        output = fitted(console, _asked(person), pictures, pipeline=pipeline)
     except RefusedError as error:
         return _Fit(person=person, found={}, fault=error.problem.detail)
     except UnusableInputError as error:
@@ -80,38 +83,44 @@ def _fit(console: Console, person: MeasuredPerson, *, models: Path | None, pipel
     )
 
 
-def _asked(person: MeasuredPerson) -> FitRequest | ScanRequest:
-    of_person: dict[str, object] = {
+def _asked(person: MeasuredPerson) -> FitRequest:
+    kinds = VIEWS if len(person.pictures) > 1 else (None,)
+    request = {
         "gender": person.gender,
         "height_m": round(person.height_cm / 100.0, 4),
+        "views": [
+            {"view": kind} | _said_of(person, points)
+            for kind, points in zip(kinds, person.points, strict=True)
+        ],
     }
-    if person.clothing is not None:
-        of_person["clothing"] = person.clothing
-    of_view = {} if (f := person.focal_length_35mm) is None else {"focal_length_35mm": f}
-    if len(person.pictures) == 1:
-        text = fit_request(
-            FitArguments(
-                image=person.pictures[0],
-                points=person.points[0],
-                mask=None,
-                models=None,
-                output=Path(),
-                overrides=of_person | of_view,
-            )
-        )
-        return parsed(FitRequest, text, whole="request", called=f"row {person.row}")
-    text = scan_request(
-        ScanArguments(
-            images=person.pictures,
-            views=(),
-            points=person.points,
-            models=None,
-            output=Path(),
-            overrides=of_person,
-            of_all_views=of_view,
-        )
+    return parsed(
+        FitRequest, json.dumps(request).encode(), whole="request", called=f"row {person.row}"
     )
-    return parsed(ScanRequest, text, whole="request", called=f"row {person.row}")
+
+
+def _said_of(person: MeasuredPerson, points: Path | None) -> dict[str, object]:
+    said: dict[str, object] = {}
+    if points is not None:
+        said |= {"points": _points(points)}
+    if person.clothing is not None:
+        said |= {"clothing": person.clothing}
+    if person.focal_length_35mm is not None:
+        said |= {"focal_length_35mm": person.focal_length_35mm}
+    return said
+
+
+def _points(file: Path) -> object:
+    try:
+        return json.loads(file.read_text())
+    except json.JSONDecodeError as error:
+        raise RefusedError(
+            problem(
+                "malformed-request",
+                detail=f"{file} is not JSON: {error}.",
+                remedy='Give an object of points, as {"left_shoulder": [x, y], ...}.',
+                field="points",
+            )
+        ) from error
 
 
 def _pairs(fits: Sequence[_Fit]) -> dict[str, list[Pair]]:

@@ -44,18 +44,18 @@ def load_woman(folder: Path = FOLDER) -> PictureSample:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ScanSample:
-    """Pictures of one person, and the request of their scan as JSON text."""
+class ViewsSample:
+    """Pictures of one person, and the request of their fit as JSON text."""
 
     images: tuple[bytes, ...]
     request: bytes
 
 
-def load_scan_sample(folder: Path = FOLDER) -> ScanSample:
-    """Read ``scan_front.jpg``, ``scan_side.jpg`` and ``scan.json``."""
-    return ScanSample(
-        images=tuple((folder / f"scan_{view}.jpg").read_bytes() for view in ("front", "side")),
-        request=(folder / "scan.json").read_bytes(),
+def load_views_sample(folder: Path = FOLDER) -> ViewsSample:
+    """Read ``front.jpg``, ``side.jpg`` and ``front_and_side.json``."""
+    return ViewsSample(
+        images=tuple((folder / f"{view}.jpg").read_bytes() for view in ("front", "side")),
+        request=(folder / "front_and_side.json").read_bytes(),
     )
 
 

@@ -16,7 +16,7 @@ from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
 from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
 from service.engine.records import (
-    ARTIFACTS,
+    FILES,
     append_event,
     end_job,
     find_job,
@@ -205,7 +205,7 @@ class AttemptLog:
                 state=state,
                 retention_s=self._retention_s,
                 values={
-                    "artifacts": ARTIFACTS.dump_json(result.artifacts).decode(),
+                    "files": FILES.dump_json(result.files).decode(),
                     "problem": result.problem.model_dump_json() if result.problem else None,
                 }
                 | ({"progress": 1.0} if state is JobState.SUCCEEDED else {}),
@@ -273,7 +273,7 @@ def result_to_json(attempt: int, result: AttemptResult) -> str:
         {
             "attempt": attempt,
             "ending": result.ending.value,
-            "artifacts": ARTIFACTS.dump_python(result.artifacts, mode="json"),
+            "files": FILES.dump_python(result.files, mode="json"),
             "problem": result.problem.model_dump(mode="json") if result.problem else None,
             "stage_seconds": dict(result.stage_seconds),
         }
@@ -285,7 +285,7 @@ def result_from_json(text: str) -> tuple[int, AttemptResult]:
     values = json.loads(text)
     return values["attempt"], AttemptResult(
         ending=Ending(values["ending"]),
-        artifacts=ARTIFACTS.validate_json(json.dumps(values["artifacts"])),
+        files=FILES.validate_json(json.dumps(values["files"])),
         problem=None
         if values["problem"] is None
         else Problem.model_validate_json(json.dumps(values["problem"])),

@@ -17,7 +17,7 @@ from service.engine.availability import available
 from service.engine.facts import read_fact, touch_fact
 from service.engine.images import ImageQuota, TenantImages
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch
-from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
+from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
@@ -87,8 +87,8 @@ class JobEngine:
         self._client.destroy()
         self._database.dispose()
 
-    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
-        """Return the fits of a tenant, or its scans."""
+    def of(self, tenant: str) -> TenantJobs:
+        """Return the fits of a tenant."""
         return TenantJobs(
             database=self._database,
             client=self._client,
@@ -98,7 +98,6 @@ class JobEngine:
                 max_queued_per_tenant=self._max_queued_per_tenant,
             ),
             retention_s=self._retention_s,
-            root=root,
         )
 
     def images_of(self, tenant: str) -> TenantImages:

@@ -128,9 +128,7 @@ def expire_jobs(connection: sa.Connection, now: float) -> int:
     rows = connection.execute(
         sa.delete(JOBS)
         .where(JOBS.c.id.in_(ids))
-        .returning(
-            *(JOBS.c[name] for name in ("id", "tenant", "root", "parent_id", "expires_at", "state"))
-        )
+        .returning(*(JOBS.c[name] for name in ("id", "tenant", "parent_id", "expires_at", "state")))
     ).all()
     connection.execute(
         sa.insert(TOMBSTONES),
@@ -138,7 +136,6 @@ def expire_jobs(connection: sa.Connection, now: float) -> int:
             {
                 "id": row.id,
                 "tenant": row.tenant,
-                "root": row.root,
                 "parent_id": row.parent_id,
                 "expired_at": row.expires_at,
             }

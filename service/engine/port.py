@@ -7,11 +7,10 @@ from typing import Final, Protocol
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
-from api_schemas.results import Artifact
+from api_schemas.results import ResultFile
 
 FIT: Final = "fit"
-SCAN: Final = "scan"
-"""The kinds of jobs that are no derivations."""
+"""The kind of jobs that are no derivations."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,8 +36,7 @@ class NewJob:
     ``inputs`` is what else it needs, by name, ``pictures`` of them pictures of a person that came
     with the request: so many jobs it counts for while it waits. ``request_id`` identifies the HTTP
     request in logs; ``webhook`` is a blob too, a :class:`api_schemas.webhooks.WebhookTarget` as
-    JSON: whom to notify of the job's end. ``label`` is what the caller calls the person of a fit or
-    a scan.
+    JSON: whom to notify of the job's end. ``label`` is what the caller calls the person.
     """
 
     id: str
@@ -71,14 +69,13 @@ class WebhookRecord:
 class JobRecord:
     """A stored job; times are seconds since the epoch.
 
-    ``parent`` is the fit or scan it is derived from, None for one of these; ``root`` is the kind of
-    that one, or its own. ``view`` is the picture of a scan that its stage is about.
+    ``parent`` is the fit it is derived from, None for a fit. ``view`` is the picture that its stage
+    is about, where there are several. ``result_files`` are those of its result.
     """
 
     id: str
     tenant: str
     kind: str
-    root: str
     parent: str | None
     state: JobState
     stage: str | None
@@ -95,11 +92,20 @@ class JobRecord:
     inputs: Mapping[str, StoredBlob]
     pictures: int
     label: str | None
-    artifacts: tuple[Artifact, ...]
+    result_files: tuple[ResultFile, ...]
     fingerprint: str | None
     last_event: int
     request_id: str | None
     webhook: WebhookRecord | None
+
+    @property
+    def files(self) -> Mapping[str, StoredBlob]:
+        """All that was sent, and all that came of it, by name."""
+        made = {
+            each.name: StoredBlob(digest=each.sha256, media_type=each.media_type)
+            for each in self.result_files
+        }
+        return {**self.inputs, **made}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -231,7 +237,7 @@ class AttemptResult:
     """The result of an attempt: references to blobs, never the blobs themselves."""
 
     ending: Ending
-    artifacts: tuple[Artifact, ...] = ()
+    files: tuple[ResultFile, ...] = ()
     problem: Problem | None = None
     stage_seconds: Mapping[str, float] = field(default_factory=dict[str, float])
 

@@ -10,14 +10,14 @@ from pydantic import TypeAdapter
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
-from api_schemas.results import Artifact
+from api_schemas.results import ResultFile
 from service.engine.port import JobRecord, StoredBlob, WebhookRecord
 from service.engine.statistics import count_ending
 from service.engine.tables import EVENTS, JOBS
 from service.jobs.states import may_become
 
 JSON: Final = "application/json"
-ARTIFACTS: Final = TypeAdapter(tuple[Artifact, ...])
+FILES: Final = TypeAdapter(tuple[ResultFile, ...])
 INPUTS: Final = TypeAdapter(dict[str, StoredBlob])
 
 
@@ -32,7 +32,6 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         id=values["id"],
         tenant=values["tenant"],
         kind=values["kind"],
-        root=values["root"],
         parent=values["parent_id"],
         state=JobState(values["state"]),
         stage=values["stage"],
@@ -51,7 +50,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         inputs=INPUTS.validate_json(values["inputs"]),
         pictures=values["pictures"],
         label=values["label"],
-        artifacts=ARTIFACTS.validate_json(values["artifacts"]),
+        result_files=FILES.validate_json(values["files"]),
         fingerprint=values["fingerprint"],
         request_id=values["request_id"],
         last_event=values["last_event"],

@@ -13,7 +13,6 @@ JOBS = sa.Table(
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
     sa.Column("kind", sa.String(32), nullable=False),
-    sa.Column("root", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
     sa.Column("pictures", sa.Integer, nullable=False),
     sa.Column("label", LABEL),
@@ -32,7 +31,7 @@ JOBS = sa.Table(
     sa.Column("expires_at", sa.Double),
     sa.Column("options_digest", sa.String(64), nullable=False),
     sa.Column("inputs", sa.Text, nullable=False),
-    sa.Column("artifacts", sa.Text, nullable=False),
+    sa.Column("files", sa.Text, nullable=False),
     sa.Column("problem", sa.Text),
     sa.Column("idempotency_key", sa.String(64)),
     sa.Column("fingerprint", sa.String(64)),
@@ -46,19 +45,18 @@ JOBS = sa.Table(
     sa.Column("webhook_error", sa.Text),
     sa.Column("worker_deaths", sa.Integer),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
-    sa.Index("maquette_jobs_newest", "tenant", "root", "parent_id", "created_at", "id"),
-    sa.Index("maquette_jobs_label", "tenant", "label", "root", "created_at", "id"),
+    sa.Index("maquette_jobs_newest", "tenant", "parent_id", "created_at", "id"),
+    sa.Index("maquette_jobs_label", "tenant", "label", "created_at", "id"),
     sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
     sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
-"""Fits, scans and derivations; a derivation names in ``parent_id`` the fit or scan it is made of,
-and ``root`` is the kind of that one, or a job's own. ``inputs`` are blobs in the job's own scope,
-by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` is the digest of
-another, which holds whom to notify and the secret to sign with. It is not in the database, because
-databases keep what was deleted in dead rows, logs and backups. ``turn`` says when
-it is begun (:mod:`service.engine.turns`). ``claimed_by`` is the
+"""Fits and derivations; a derivation names in ``parent_id`` the fit it is made of. ``inputs`` are
+blobs in the job's own scope, by name, as JSON, ``pictures`` of them pictures of a person;
+``webhook_target`` is the digest of another, which holds whom to notify and the secret to sign
+with. It is not in the database, because databases keep what was deleted in dead rows, logs and
+backups. ``turn`` says when it is begun (:mod:`service.engine.turns`). ``claimed_by`` is the
 worker that runs the job or is about to (:mod:`service.engine.claims`); ``worker_deaths`` counts
 those that died over it, and is None until one did."""
 
@@ -109,7 +107,6 @@ TOMBSTONES = sa.Table(
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
-    sa.Column("root", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
     sa.Column("expired_at", sa.Double, nullable=False),
     sa.Index("maquette_tombstones_age", "expired_at"),

@@ -53,11 +53,9 @@ class TenantJobs:
         client: DBOSClient,
         admission: Admission,
         retention_s: float,
-        root: str,
         parent: str | None = None,
     ) -> None:
         self._tenant = admission.tenant
-        self._root = root
         self._parent = parent
         self._database = database
         self._client = client
@@ -65,13 +63,12 @@ class TenantJobs:
         self._retention_s = retention_s
 
     def derivations(self, parent_id: str) -> "TenantJobs":
-        """Return the jobs derived from a fit or scan of this tenant; they are erased with it."""
+        """Return the jobs derived from a fit of this tenant; they are erased with it."""
         return TenantJobs(
             database=self._database,
             client=self._client,
             admission=self._admission,
             retention_s=self._retention_s,
-            root=self._root,
             parent=parent_id,
         )
 
@@ -249,7 +246,6 @@ class TenantJobs:
     def _ours(self) -> tuple[sa.ColumnElement[bool], ...]:
         return (
             JOBS.c.tenant == self._tenant,
-            JOBS.c.root == self._root,
             JOBS.c.parent_id == self._parent,
         )
 
@@ -269,7 +265,6 @@ class TenantJobs:
             .where(
                 JOBS.c.id == self._parent,
                 JOBS.c.tenant == self._tenant,
-                JOBS.c.root == self._root,
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
             )
@@ -287,7 +282,6 @@ class TenantJobs:
             sa.select(TOMBSTONES.c.expired_at).where(
                 TOMBSTONES.c.id == job_id,
                 TOMBSTONES.c.tenant == self._tenant,
-                TOMBSTONES.c.root == self._root,
                 TOMBSTONES.c.parent_id == self._parent,
             )
         ).scalar_one_or_none()
@@ -306,7 +300,6 @@ class TenantJobs:
                     id=job.id,
                     tenant=self._tenant,
                     kind=job.kind,
-                    root=self._root,
                     parent_id=self._parent,
                     pictures=job.pictures,
                     label=job.label,
@@ -320,7 +313,7 @@ class TenantJobs:
                     expires_at=expires_at,
                     options_digest=job.options.digest,
                     inputs=INPUTS.dump_json(dict(job.inputs)).decode(),
-                    artifacts="[]",
+                    files="[]",
                     idempotency_key=None if again is None else again.key,
                     fingerprint=None if again is None else again.fingerprint,
                     request_id=job.request_id,

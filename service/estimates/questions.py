@@ -14,9 +14,8 @@ from pydantic import BaseModel
 from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.checks import CaptureCheck, CheckRequest
-from api_schemas.initial_poses import InitialPose
+from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.proposals import PointsProposal, PointsRequest
-from api_schemas.requests import SubjectOptions
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 
 BODY: Final = "body"
@@ -41,7 +40,7 @@ class BodyTask(WireModel):
 class InitialPoseTask(WireModel):
     """Pose the mean person to match clicks, named pixels of a picture of this size."""
 
-    subject: SubjectOptions
+    subject: InitialPoseRequest
     width: int
     height: int
     exif_focal_length_35mm: float | None

@@ -12,7 +12,6 @@ from api_schemas import bodies as wire_bodies
 from api_schemas import checks as wire_checks
 from api_schemas import initial_poses as wire_poses
 from api_schemas import proposals as wire_proposals
-from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
 from api_schemas.points import PointSource
 from fitter.body.model import BodyModel
@@ -39,7 +38,7 @@ JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""
 
 
-def subject_view(subject: wire_request.SubjectOptions) -> View:
+def subject_view(subject: wire_poses.InitialPoseRequest) -> View:
     """Translate what is said of a picture that is not there; its points are named."""
     return View(
         image=b"",
@@ -166,7 +165,7 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
     )
     stature_cm = next(each.value for each in measurements if each.name == STATURE)
     return wire_bodies.BodyEstimate(
-        gender=wire_request.Gender(model.gender),
+        gender=Gender(model.gender),
         height_m=round(stature_cm / 100.0, 4),
         shape=rounded_parameters(estimate.shape),
         measurements=measurements,

@@ -190,8 +190,6 @@ def _told(reason: Problem) -> Received:
     return Received(ProblemMessage(problem=reason), {})
 
 
-LOG: Final = logging.getLogger(__name__)
-
 SOCKET: Final = "questions"
 LOOK_S: Final = 0.02
 BACKLOG: Final = 128

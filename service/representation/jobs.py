@@ -1,143 +1,58 @@
-"""Job records as callers see them."""
+"""Records of fits as callers see them."""
 
 from datetime import UTC, datetime
-from typing import Any, Final
+from typing import Final
 from uuid import UUID
 
-from api_schemas.derivation_kinds import DerivationKind
-from api_schemas.derivations import Derivation, DerivationLinks
-from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
-from api_schemas.scans import (
-    Scan,
-    ScanDerivation,
-    ScanDerivationLinks,
-    ScanLinks,
-    ScanViewLinks,
-)
-from service.engine.port import FIT, SCAN, JobRecord, WebhookRecord
-from service.jobs.inputs import MASK, pictures_of
+from api_schemas.jobs import Fit, FitLinks, JobState, WebhookDelivery
+from service.engine.port import JobRecord, WebhookRecord
 from service.jobs.states import ACTIVE
 
+FITS: Final = "/v1/fits"
+"""Path of the fits below the service's root."""
+
 POLL_AFTER_S: Final = 1
-"""What Retry-After says for a job that has not ended."""
+"""What Retry-After says for a fit that has not ended."""
 
 
-def collection_path(root: str) -> str:
-    """Path of the fits, or of the scans, below the service's root."""
-    return f"/v1/{root}s"
+def fit_path(fit_id: str) -> str:
+    """Path of a fit below the service's root."""
+    return f"{FITS}/{fit_id}"
 
 
-def derivations_path(root: str, parent_id: str) -> str:
-    """Path of what is derived from a fit or a scan, below the service's root."""
-    return f"{collection_path(root)}/{parent_id}/derivations"
-
-
-def job_path(record: JobRecord) -> str:
-    """Path of a job below the service's root."""
-    if record.parent is None:
-        return f"{collection_path(record.root)}/{record.id}"
-    return f"{derivations_path(record.root, record.parent)}/{record.id}"
-
-
-def list_path(record: JobRecord) -> str:
-    """Path of the list that a job is in."""
-    return job_path(record).rpartition("/")[0]
-
-
-def represent(record: JobRecord) -> Job | Scan | Derivation | ScanDerivation:
+def represent(record: JobRecord) -> Fit:
     """Translate a record."""
-    is_of_fits = record.root == FIT
-    if record.parent is None:
-        return _fit(record) if is_of_fits else _scan(record)
-    of_root = _derivation if is_of_fits else _scan_derivation
-    return of_root(record, record.parent)
-
-
-def _fit(record: JobRecord) -> Job:
-    path = job_path(record)
-    succeeded = record.state is JobState.SUCCEEDED
-    return Job(
-        **_standing(record),
-        label=record.label,
-        links=JobLinks(
-            **_links(record),
-            image=f"{path}/image",
-            mask=f"{path}/mask" if MASK in record.inputs else None,
-            derivations=derivations_path(FIT, record.id) if succeeded else None,
-        ),
-    )
-
-
-def _scan(record: JobRecord) -> Scan:
-    path = job_path(record)
-    succeeded = record.state is JobState.SUCCEEDED
-    return Scan(
-        **_standing(record),
+    return Fit(
+        id=UUID(record.id),
+        state=record.state,
+        stage=record.stage,
         view=record.view,
+        progress=record.progress,
+        attempt=record.attempt,
+        cancel_requested=record.cancel_requested,
+        created_at=_moment(record.created_at),
+        started_at=None if record.started_at is None else _moment(record.started_at),
+        finished_at=None if record.finished_at is None else _moment(record.finished_at),
+        expires_at=None if record.expires_at is None else _moment(record.expires_at),
+        problem=record.problem,
         label=record.label,
-        links=ScanLinks(
-            **_links(record),
-            views=tuple(
-                ScanViewLinks(
-                    image=f"{path}/views/{number}/image",
-                    mask=None if picture.mask is None else f"{path}/views/{number}/mask",
-                )
-                for number, picture in enumerate(pictures_of(record.inputs))
-            ),
-            derivations=derivations_path(SCAN, record.id) if succeeded else None,
-        ),
+        webhook=None if record.webhook is None else _delivery(record.webhook),
+        links=_links(record),
     )
 
 
-def _derivation(record: JobRecord, fit: str) -> Derivation:
-    return Derivation(
-        **_standing(record),
-        kind=DerivationKind(record.kind),
-        fit_id=UUID(fit),
-        links=DerivationLinks(**_links(record), fit=f"{collection_path(FIT)}/{fit}"),
+def _links(record: JobRecord) -> FitLinks:
+    path = fit_path(record.id)
+    succeeded = record.state is JobState.SUCCEEDED
+    return FitLinks(
+        self=path,
+        events=f"{path}/events",
+        request=f"{path}/request",
+        cancel=f"{path}/cancel" if record.state in ACTIVE else None,
+        result=f"{path}/result" if succeeded else None,
+        products=f"{path}/products" if succeeded else None,
+        files={name: f"{path}/files/{name}" for name in record.files},
     )
-
-
-def _scan_derivation(record: JobRecord, scan: str) -> ScanDerivation:
-    return ScanDerivation(
-        **_standing(record),
-        kind=DerivationKind(record.kind),
-        scan_id=UUID(scan),
-        links=ScanDerivationLinks(**_links(record), scan=f"{collection_path(SCAN)}/{scan}"),
-    )
-
-
-def _standing(record: JobRecord) -> dict[str, Any]:
-    return {
-        "id": UUID(record.id),
-        "state": record.state,
-        "stage": record.stage,
-        "progress": record.progress,
-        "attempt": record.attempt,
-        "cancel_requested": record.cancel_requested,
-        "created_at": _moment(record.created_at),
-        "started_at": None if record.started_at is None else _moment(record.started_at),
-        "finished_at": None if record.finished_at is None else _moment(record.finished_at),
-        "expires_at": None if record.expires_at is None else _moment(record.expires_at),
-        "problem": record.problem,
-        "webhook": None if record.webhook is None else _delivery(record.webhook),
-    }
-
-
-def _links(record: JobRecord) -> dict[str, Any]:
-    path = job_path(record)
-    active = record.state in ACTIVE
-    return {
-        "self": path,
-        "events": f"{path}/events",
-        "request": f"{path}/request",
-        "cancel": f"{path}/cancel" if active else None,
-        "retry": None if active else f"{path}/retry",
-        "result": f"{path}/result" if record.state is JobState.SUCCEEDED else None,
-        "artifacts": {
-            artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts
-        },
-    }
 
 
 def _delivery(webhook: WebhookRecord) -> WebhookDelivery:

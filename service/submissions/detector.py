@@ -7,11 +7,11 @@ the detector, its fit fails with the same code.
 from pathlib import Path
 from typing import Final
 
+from api_schemas.fit import FitRequest
+from api_schemas.points import AUTO
 from api_schemas.problems import FieldProblem, Problem, problem
-from api_schemas.requests import FitOptions
-from api_schemas.scans import ScanOptions
 from fitter.detection.weights import INSTALLATION, detector_fault
-from service.submissions.refusal import of_picture, refused
+from service.submissions.refusal import of_view, refused
 
 DETECTOR_MISSING: Final = "detector-not-installed"
 
@@ -32,7 +32,7 @@ def no_detector() -> Problem:
     return problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
 
 
-def check_detector(options: FitOptions | ScanOptions, folder: Path | None) -> None:
+def check_detector(asked: FitRequest, folder: Path | None) -> None:
     """Refuse a request that needs the detector if there is none.
 
     Raises
@@ -40,12 +40,12 @@ def check_detector(options: FitOptions | ScanOptions, folder: Path | None) -> No
     RefusedError
         ``detector-not-installed``, of the field that asks for it.
     """
-    for number, asked in enumerate(options.pictures):
-        if asked.complete_points and not detector_is_installed(folder):
-            with of_picture(number, among=len(options.pictures)):
+    for number, view in enumerate(asked.views):
+        if view.are_points_completed and not detector_is_installed(folder):
+            with of_view(number):
                 raise refused(
                     FieldProblem(
-                        field="complete_points" if asked.points else "points",
+                        field="points" if view.points == AUTO else "complete_points",
                         code=DETECTOR_MISSING,
                         reason=NOT_INSTALLED,
                         remedy=REMEDY,

@@ -15,13 +15,13 @@ class RefusedError(Exception):
 
 
 @contextlib.contextmanager
-def of_picture(number: int, *, among: int) -> Iterator[None]:
-    """Let fields that are refused begin with the view they belong to, if there are several."""
+def of_view(number: int) -> Iterator[None]:
+    """Let fields that are refused begin with the view they belong to."""
     try:
         yield
     except RefusedError as error:
         told = error.problem
-        if among == 1 or not told.errors:
+        if not told.errors:
             raise
         named = [
             each.model_copy(update={"field": f"views.{number}.{each.field}"})

@@ -6,14 +6,13 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final, Generic, Protocol, TypeVar
+from typing import Final
 
 from api_schemas.checks import CheckRequest
+from api_schemas.fit import FitRequest
+from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point, PointsFormat
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import AskedPicture, FitOptions, FitRequest
-from api_schemas.scans import ScanOptions
-from api_schemas.webhooks import WebhookTarget
 from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY, decodes_heif
 from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
@@ -25,8 +24,7 @@ from service.submissions.image_header import (
     read_image_header,
 )
 from service.submissions.point_rules import checked_points, placed_points
-from service.submissions.refusal import of_picture, refused
-from service.submissions.validation import parsed
+from service.submissions.refusal import of_view, refused
 
 ACCEPTED_KINDS: Final = "JPEG, PNG, WebP or HEIC"
 
@@ -39,66 +37,18 @@ class SentFile:
     media_type: str
 
 
-Options_co = TypeVar("Options_co", bound=FitOptions | ScanOptions, covariant=True)
-
-
-class AskedFor(Protocol[Options_co]):
-    """A request for a fit or for a scan: a person, and what is asked of each of their pictures."""
-
-    @property
-    def pictures(self) -> Sequence[AskedPicture]:
-        """What is asked of each of them."""
-        ...
-
-    @property
-    def label(self) -> str | None:
-        """What the caller calls the person."""
-        ...
-
-    @property
-    def webhook(self) -> WebhookTarget | None:
-        """Whom to notify of the end."""
-        ...
-
-    def understood(self, points: Sequence[Mapping[PointName, Point]]) -> Options_co:
-        """What is asked for, of these points in the pictures."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CheckedSubmission(Generic[Options_co]):
-    """Options whose points are named pixels inside their pictures, and the files by name.
+class CheckedSubmission:
+    """A request whose points are named pixels inside their pictures, and the files by name."""
 
-    ``webhook`` is as it was sent: whether a notice may go there is for the service to say.
-    """
-
-    options: Options_co
-    label: str | None
-    webhook: WebhookTarget | None
+    request: FitRequest
     files: Mapping[str, SentFile]
 
 
-def check_fit(
-    *, request: bytes, image: bytes, mask: bytes | None, max_pixels: int
-) -> CheckedSubmission[FitOptions]:
-    """Check the JSON text of a :class:`~api_schemas.requests.FitRequest` and its encoded picture.
-
-    Raises
-    ------
-    RefusedError
-        With the problem to answer.
-    """
-    return check_submission(
-        parsed(FitRequest, request, whole="request", called="the part 'request'"),
-        (SentPicture(image, mask),),
-        max_pixels=max_pixels,
-    )
-
-
 def check_submission(
-    asked: AskedFor[Options_co], sent: Sequence[SentPicture[bytes]], *, max_pixels: int
-) -> CheckedSubmission[Options_co]:
-    """Check a request against its encoded pictures, of which there are as many as it speaks of.
+    asked: FitRequest, sent: Sequence[SentPicture[bytes]], *, max_pixels: int
+) -> CheckedSubmission:
+    """Check a request against its encoded pictures.
 
     Parameters
     ----------
@@ -108,33 +58,37 @@ def check_submission(
     Raises
     ------
     RefusedError
-        With the problem to answer; of several pictures its fields begin with ``views.NUMBER``.
+        With the problem to answer; fields of a picture begin with ``views.NUMBER``.
     """
+    if len(asked.views) != len(sent):
+        raise refused(
+            FieldProblem(
+                field="views",
+                code="views-count",
+                reason=f"{len(sent)} pictures came, and {len(asked.views)} of `views`.",
+                remedy="Send as many `views` as pictures, in their order, each with its `view`.",
+            )
+        )
     points, files = [], []
-    for number, (picture, each) in enumerate(zip(asked.pictures, sent, strict=True)):
-        with of_picture(number, among=len(sent)):
+    for number, (view, each) in enumerate(zip(asked.views, sent, strict=True)):
+        with of_view(number):
             header = check_picture(IMAGE, each.image, max_pixels=max_pixels)
             mask = None
             if each.mask is not None:
                 mask_header = check_picture(MASK, each.mask, max_pixels=max_pixels)
                 _check_same_size(header, mask_header)
                 mask = SentFile(content=each.mask, media_type=mask_header.media_type)
-            points.append(_points(picture, header))
+            points.append(_points(view, header))
         image = SentFile(content=each.image, media_type=header.media_type)
         files.append(SentPicture(image, mask))
-    return CheckedSubmission(
-        options=asked.understood(points),
-        label=asked.label,
-        webhook=asked.webhook,
-        files=named_pictures(files),
-    )
+    return CheckedSubmission(request=asked.understood(points), files=named_pictures(files))
 
 
-def _points(asked: AskedPicture, picture: ImageHeader) -> dict[PointName, Point]:
-    if asked.points == AUTO:
+def _points(view: ViewRequest, picture: ImageHeader) -> dict[PointName, Point]:
+    if view.points == AUTO:
         return {}
-    check = placed_points if asked.complete_points else checked_points
-    return check(asked.points, asked.format, width=picture.width, height=picture.height)
+    check = placed_points if view.complete_points else checked_points
+    return check(view.given_points, view.format, width=picture.width, height=picture.height)
 
 
 def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:

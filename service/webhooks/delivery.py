@@ -13,9 +13,7 @@ from datetime import UTC, datetime
 from functools import partial
 from typing import Final
 
-from api_schemas.derivations import Derivation, DerivationEvent, DerivationEventType
-from api_schemas.jobs import Job, WebhookState
-from api_schemas.scans import Scan, ScanDerivation, ScanDerivationEvent, ScanEvent, ScanEventType
+from api_schemas.jobs import WebhookState
 from api_schemas.webhooks import WebhookEvent, WebhookEventType, secret_key
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import EngineUnavailableError, JobRecord
@@ -42,25 +40,13 @@ USER_AGENT: Final = "Maquette (Standard Webhooks)"
 
 
 def notice(job: JobRecord) -> bytes:
-    """Write the body of the notice of an ended job; it is the same at every attempt."""
-    return _event(job).model_dump_json().encode()
-
-
-def _event(job: JobRecord) -> WebhookEvent | ScanEvent | DerivationEvent | ScanDerivationEvent:
-    at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
-    match represent(job).model_copy(update={"webhook": None}):
-        case Job() as data:
-            how = WebhookEventType(f"fit.{job.state}")
-            return WebhookEvent(type=how, timestamp=at, data=data)
-        case Scan() as data:
-            how = ScanEventType(f"scan.{job.state}")
-            return ScanEvent(type=how, timestamp=at, data=data)
-        case Derivation() as data:
-            how = DerivationEventType(f"derivation.{job.state}")
-            return DerivationEvent(type=how, timestamp=at, data=data)
-        case ScanDerivation() as data:
-            how = DerivationEventType(f"derivation.{job.state}")
-            return ScanDerivationEvent(type=how, timestamp=at, data=data)
+    """Write the body of the notice of an ended fit; it is the same at every attempt."""
+    event = WebhookEvent(
+        type=WebhookEventType(f"fit.{job.state}"),
+        timestamp=datetime.fromtimestamp(job.finished_at or 0.0, UTC),
+        data=represent(job).model_copy(update={"webhook": None}),
+    )
+    return event.model_dump_json().encode()
 
 
 class Deliverer:

@@ -2,122 +2,98 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, cast
+from typing import cast, overload
 
 import numpy as np
 
 from api_schemas import results as wire
-from api_schemas import scans as wire_scan
-from api_schemas.requests import FitOptions
 from fitter.capture.finding import Box, Finding
 from fitter.measurement.quantity import Measurement
 from fitter.observation.worn import WornRegion
-from fitter.parameters import (
-    BodyParameters,
-    CameraTilt,
-    Light,
-    Reflectance,
-)
+from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
-from fitter.result import FitResult, FitStage, FittedView, LimbFacing, PictureFit, StageBody
-from fitter.vocabulary.choices import LightKind, ViewKind
+from fitter.result import FitResult, FitStage, FittedView, LimbFacing
+from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.points import PointName
 
 _WORSE = (Verdict.PLAUSIBLE, Verdict.IMPLAUSIBLE, Verdict.NO_PERSON)
 
-
-def result_of(
-    options: FitOptions | wire_scan.ScanOptions, found: FitResult, part_names: Sequence[str]
-) -> wire.FitResult | wire_scan.ScanResult:
-    """Translate a result as what was asked for; its files are listed later, once they exist."""
-    if isinstance(options, FitOptions):
-        return fit_result(found, part_names=part_names)
-    return scan_result(found, part_names=part_names)
+WITHIN_95 = 1.96
+"""So many standard errors to either side hold 95 % of true values."""
 
 
 def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
-    """Translate the result of one picture."""
-    (view,) = result.views
-    return wire.FitResult(
-        **_person(result),
-        **_view(view, part_names),
-        view=view.kind,
-        stages=tuple(
-            wire.Stage(**_stage(stage, result.given), **_stage_body(body, part_names))
-            for stage in result.stages
-            for body in stage.bodies
-        ),
-        assumptions=assumption_results(view.assumptions + result.assumptions),
-        warnings=warning_results(view.warnings + result.warnings),
-        differences=result.differences,
-    )
-
-
-def scan_result(result: FitResult, *, part_names: Sequence[str]) -> wire_scan.ScanResult:
-    """Translate the result of several pictures."""
-    assert result.alone is not None
+    """Translate a result; its files are listed later, once they exist."""
     worst = max((view.found for view in result.views), key=lambda each: _WORSE.index(each.verdict))
-    return wire_scan.ScanResult(
-        **_person(result),
+    return wire.FitResult(
+        gender=result.person.gender,
+        height_m=round(result.found.height_m, 4),
+        cues=result.found.cues,
+        optimizer=result.optimizer,
+        energies=_energies(result.energies),
+        evaluations=result.evaluations,
+        measurements=measurement_results(result.measurements, result.given),
+        shape=rounded_parameters(result.shape),
         verdict=worst.verdict,
         outcome_explanation=worst.outcome_explanation,
-        shape=rounded_parameters(result.shape),
-        views=tuple(
-            wire_scan.ScannedView(
-                **_view(view, part_names),
-                number=number,
-                view=_announced(view),
-                assumptions=assumption_results(view.assumptions),
-                warnings=warning_results(view.warnings),
-            )
-            for number, view in enumerate(result.views)
-        ),
-        stages=tuple(
-            wire_scan.ScanStage(
-                **_stage(stage, result.given),
-                views=tuple(
-                    wire.StageBody(**_stage_body(body, part_names)) for body in stage.bodies
-                ),
-            )
-            for stage in result.stages
-        ),
-        agreement=round(result.alone.agreement, 4),
+        agreement=None if result.alone is None else round(result.alone.agreement, 4),
         assumptions=assumption_results(result.assumptions),
         warnings=warning_results(result.warnings),
+        differences=result.differences,
+        stages=tuple(_stage(stage, result.given, part_names) for stage in result.stages),
+        stage_seconds={name: round(each, 3) for name, each in result.stage_seconds.items()},
+        files=(),
+        views=tuple(_view(view, part_names) for view in result.views),
     )
 
 
-def _person(result: FitResult) -> dict[str, Any]:
-    """The fields of a :class:`api_schemas.results.PersonResult` that say one thing of all."""
-    return {
-        "gender": result.person.gender,
-        "height_m": round(result.found.height_m, 4),
-        "cues": result.found.cues,
-        "optimizer": result.optimizer,
-        "energies": _energies(result.energies),
-        "evaluations": result.evaluations,
-        "measurements": measurement_results(result.measurements, result.given),
-        "stage_seconds": {name: round(each, 3) for name, each in result.stage_seconds.items()},
-        "artifacts": (),
-    }
+def _view(view: FittedView, part_names: Sequence[str]) -> wire.ViewResult:
+    found, person = view.found, view.found.person
+    return wire.ViewResult(
+        view=view.kind,
+        outcome=found.outcome,
+        verdict=found.verdict,
+        camera=fitted_camera(view.camera, person.tilt),
+        image_camera=fitted_camera(person.camera, person.tilt),
+        focal_length_source=view.focal_length_source,
+        body=body_result(person.body, part_names),
+        light=None if person.light is None else _light(person.light),
+        reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
+        silhouette_overlap=round(found.silhouette_overlap, 4),
+        stance=_stance(person),
+        limb_facing=tuple(_limb_facing(facing) for facing in view.limb_facing),
+        findings=finding_results(view.findings),
+        clothing=tuple(_worn(each) for each in found.clothing),
+        assumptions=assumption_results(view.assumptions),
+        warnings=warning_results(view.warnings),
+    )
 
 
-def _view(view: FittedView, part_names: Sequence[str]) -> dict[str, Any]:
-    """The fields of a :class:`api_schemas.results.ViewResult`."""
-    found = view.found
-    return _in_picture(found, part_names) | {
-        "outcome_explanation": found.outcome_explanation,
-        "verdict": found.verdict,
-        "camera": fitted_camera(view.camera, found.person.tilt),
-        "focal_length_source": view.focal_length_source,
-        "stance": _stance(found.person),
-        "limb_facing": tuple(_limb_facing(facing) for facing in view.limb_facing),
-        "findings": finding_results(view.findings),
-        "clothing": tuple(_worn(each) for each in found.clothing),
-    }
+def _stage(stage: FitStage, given: Sequence[str], part_names: Sequence[str]) -> wire.Stage:
+    return wire.Stage(
+        name=stage.name,
+        energies=_energies(stage.energies),
+        measurements=tuple(
+            wire.StageMeasurement(
+                name=each.name,
+                value=round(each.value, 2),
+                unit=each.unit,
+                standard_error=_rounded_error(each.standard_error),
+                given=each.name in given,
+            )
+            for each in stage.measurements
+        ),
+        views=tuple(
+            wire.StageBody(
+                silhouette_overlap=round(body.silhouette_overlap, 4),
+                body=body_result(body.body, part_names),
+            )
+            for body in stage.bodies
+        ),
+    )
 
 
 def _worn(each: WornRegion) -> wire.WornRegion:
@@ -133,44 +109,6 @@ def _worn(each: WornRegion) -> wire.WornRegion:
 
 def _centimetres(metres: float | None) -> float | None:
     return None if metres is None else round(100.0 * metres, 1)
-
-
-def _in_picture(found: PictureFit, part_names: Sequence[str]) -> dict[str, Any]:
-    """The fields of a :class:`api_schemas.results.PictureResult`."""
-    person = found.person
-    return {
-        "outcome": found.outcome,
-        "image_camera": fitted_camera(person.camera, person.tilt),
-        "body": body_result(person.body, part_names),
-        "light": None if person.light is None else _light(person.light),
-        "reflectance": None if person.reflectance is None else _reflectance(person.reflectance),
-        "silhouette_overlap": round(found.silhouette_overlap, 4),
-    }
-
-
-def _announced(view: FittedView) -> ViewKind:
-    assert view.kind is not None
-    return view.kind
-
-
-def _stage(stage: FitStage, given: Sequence[str]) -> dict[str, Any]:
-    """The fields of a :class:`api_schemas.results.StageResult`."""
-    return {
-        "name": stage.name,
-        "energies": _energies(stage.energies),
-        "measurements": tuple(
-            wire.StageMeasurement(**each.model_dump(exclude={"low", "high"}))
-            for each in measurement_results(stage.measurements, given)
-        ),
-    }
-
-
-def _stage_body(stage: StageBody, part_names: Sequence[str]) -> dict[str, Any]:
-    """The fields of a :class:`api_schemas.results.StageBody`."""
-    return {
-        "silhouette_overlap": round(stage.silhouette_overlap, 4),
-        "body": body_result(stage.body, part_names),
-    }
 
 
 def assumption_results(assumptions: Sequence[Assumption]) -> tuple[wire.Assumption, ...]:
@@ -226,22 +164,25 @@ def camera_result(camera: Camera) -> wire.CameraResult:
 
 def fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
     """Translate a camera with how it was held."""
-    plain = camera_result(camera).model_dump()
-    if tilt is None:
-        return wire.FittedCameraResult(**plain)
-    pitch_error, roll_error = tilt.standard_errors
+    pitch, roll, errors = (None, None, (None, None))
+    if tilt is not None:
+        pitch, roll, errors = tilt.pitch, tilt.roll, tilt.standard_errors
     return wire.FittedCameraResult(
-        **plain,
-        pitch_deg=_degrees(tilt.pitch),
-        pitch_standard_error_deg=_degrees(pitch_error),
-        roll_deg=_degrees(tilt.roll),
-        roll_standard_error_deg=_degrees(roll_error),
+        **camera_result(camera).model_dump(),
+        pitch_deg=_degrees(pitch),
+        pitch_standard_error_deg=_degrees(errors[0]),
+        roll_deg=_degrees(roll),
+        roll_standard_error_deg=_degrees(errors[1]),
     )
 
 
-def _degrees(radians: float) -> float:
+@overload
+def _degrees(radians: float) -> float: ...
+@overload
+def _degrees(radians: float | None) -> float | None: ...
+def _degrees(radians: float | None) -> float | None:
     """Fine enough that what is turned by it at some metres' distance is where the files have it."""
-    return round(math.degrees(radians), 5)
+    return None if radians is None else round(math.degrees(radians), 5)
 
 
 def _stance(person: FittedPerson) -> wire.StanceResult | None:
@@ -306,17 +247,22 @@ def measurement_results(
 
     ``given`` names those that were in the request.
     """
-    return tuple(
-        wire.Measurement(
-            name=measurement.name,
-            value=round(measurement.value, 2),
-            unit=measurement.unit,
-            standard_error=_rounded_error(measurement.standard_error),
-            given=measurement.name in given,
-            definition=measurement.definition,
-            source=measurement.source,
-        )
-        for measurement in measurements
+    return tuple(_measurement(each, is_given=each.name in given) for each in measurements)
+
+
+def _measurement(measurement: Measurement, *, is_given: bool) -> wire.Measurement:
+    value = round(measurement.value, 2)
+    error = _rounded_error(measurement.standard_error)
+    return wire.Measurement(
+        name=measurement.name,
+        value=value,
+        unit=measurement.unit,
+        standard_error=error,
+        low=None if error is None else round(value - WITHIN_95 * error, 2),
+        high=None if error is None else round(value + WITHIN_95 * error, 2),
+        given=is_given,
+        definition=measurement.definition,
+        source=measurement.source,
     )
 
 

@@ -8,7 +8,7 @@ from typing import Final, ParamSpec, TypeVar
 
 from pydantic import ValidationError
 
-from api_schemas.results import Artifact
+from api_schemas.results import ResultFile
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord
 from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
@@ -24,7 +24,6 @@ from service.numerics.tasks import ChildSetup
 from service.process.logs import current_log_context
 from service.process.retrying import retry_with_pauses
 from service.settings import Settings
-from service.worker.artifacts import describe_artifact
 from service.worker.endings import (
     ending_by,
     fault,
@@ -34,6 +33,7 @@ from service.worker.endings import (
     out_of_memory,
     too_slow,
 )
+from service.worker.files import describe_file
 from service.worker.tasks import DERIVATION, OPTIONS, SECONDS, STAGE_SECONDS
 from service.worker.throttled_progress import ThrottledProgress
 
@@ -97,7 +97,7 @@ class JobRunner:
             return STOPPED[directive]
         return AttemptResult(
             ending=Ending.SUCCEEDED,
-            artifacts=self._store(attempt.job.id, computed.files),
+            files=self._store(attempt.job.id, computed.files),
             stage_seconds=computed.stage_seconds,
         )
 
@@ -155,11 +155,11 @@ class JobRunner:
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
 
-    def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
+    def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[ResultFile, ...]:
         put_all = retry_while_storage_is_away(self._blobs.put_all)
         digests = put_all(scope, list(files.values()))
         return tuple(
-            describe_artifact(name, content, digest=digest)
+            describe_file(name, content, digest=digest)
             for (name, content), digest in zip(files.items(), digests, strict=True)
         )
 

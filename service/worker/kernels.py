@@ -13,6 +13,7 @@ from typing import Final
 
 from PIL import Image
 
+from api_schemas.fit import FitRequest
 from fitter.applications.caricature import caricature_of_most_unusual
 from fitter.errors import ModelFileError
 from fitter.fits.prepared_model import prepared_model
@@ -20,9 +21,9 @@ from fitter.person.fitted_person import FittedPerson
 from service.demo_data.sample import Sample, load_sample
 from service.jobs.inputs import PERSON, SentPicture
 from service.process.caches import KERNELS, forget_kernels, package, settle_folders
-from service.submissions.submission import check_fit
+from service.submissions.submission import check_submission
 from service.worker import pipeline
-from service.worker.artifacts import with_result_document
+from service.worker.files import with_result_document
 from service.worker.pipeline_port import PipelineInput, PipelineOutput
 
 LOG: Final = logging.getLogger(__name__)
@@ -60,37 +61,38 @@ def fit_sample(detector: Path | None = None) -> PipelineOutput:
     Fits are functions of their requests: nothing of the sample is left for them.
     """
     image, request = _smaller(load_sample())
-    checked = check_fit(request=request, image=image, mask=None, max_pixels=MAX_PIXELS)
+    pictures = (SentPicture(image, None),)
+    checked = check_submission(request, pictures, max_pixels=MAX_PIXELS)
     output = pipeline.run(
         PipelineInput(
-            options=checked.options,
-            pictures=(SentPicture(image, None),),
+            request=checked.request,
+            pictures=pictures,
             max_pixels=MAX_PIXELS,
             detector=detector,
         ),
         lambda _: None,
     )
-    with_result_document(output.result, output.artifacts)
+    with_result_document(output.result, output.files)
     return output
 
 
-def _smaller(sample: Sample) -> tuple[bytes, bytes]:
+def _smaller(sample: Sample) -> tuple[bytes, FitRequest]:
     """The sample's picture and request, each side a fraction of what it was."""
     with Image.open(io.BytesIO(sample.image)) as picture:
         reduced = picture.reduce(SMALLER)
     encoded = io.BytesIO()
     reduced.save(encoded, "JPEG")
     request = json.loads(sample.request)
-    for point in request["points"].values():
+    for point in request["views"][0]["points"].values():
         point["x"] /= SMALLER
         point["y"] /= SMALLER
-    return encoded.getvalue(), json.dumps(request).encode()
+    return encoded.getvalue(), FitRequest.model_validate_json(json.dumps(request))
 
 
 def _compile_all() -> None:
     """Compile what a fit calls, and what only a caricature does: where a surface crosses itself."""
     make_kernels_ready()
-    person = FittedPerson.from_bytes(fit_sample().artifacts[PERSON])
+    person = FittedPerson.from_bytes(fit_sample().files[PERSON])
     operators = prepared_model(person.gender).operators
     caricature_of_most_unusual(operators.evaluator, person.body.shape, 1.1)
 

@@ -7,16 +7,16 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from fitter.applications.previews import View, preview
 from fitter.errors import DetectorUnavailableError, InvalidInputError
-from fitter.export import artifacts, tapes_json
+from fitter.export import result_files, tapes_json
 from fitter.export.display import png
 from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
 from fitter.result import FitResult
 from service.engine.port import Report
-from service.jobs.inputs import PERSON, TAPES
+from service.jobs.inputs import BODY, PERSON, TAPES
 from service.worker import translate
 from service.worker.derivers import load_deriver
-from service.worker.fit_results import result_of
+from service.worker.fit_results import fit_result
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -27,12 +27,12 @@ from service.worker.pipeline_port import (
 from service.worker.tasks import job_tasks
 
 _SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
-"""What ``scan.png`` shows, and how far the onlooker has walked round, degrees."""
+"""What ``body.png`` shows, and how far the onlooker has walked round, degrees."""
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
     """Fit one body to all pictures; see :class:`service.worker.pipeline_port.Pipeline`."""
-    request = translate.fit_request(job.options, job.pictures, max_pixels=job.max_pixels)
+    request = translate.fit_request(job.request, job.pictures, max_pixels=job.max_pixels)
     equipment = Equipment(models=job.models, detector_weights=job.detector)
     try:
         found = fit(
@@ -40,17 +40,16 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         )
         prepared = equipment.model(found.person.gender)
         model = prepared.operators.model
-        files = artifacts(found, model=model, images=[each.image for each in job.pictures])
+        files = result_files(found, model=model, images=[each.image for each in job.pictures])
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
-        field = translate.proposed_field(job.options)
+        field = translate.proposed_field(job.request)
         raise UnusableInputError(translate.detector_problem(error, field=field)) from error
     files[PERSON] = found.person.to_bytes()
     files[TAPES] = tapes_json(found, prepared.measuring)
-    if len(job.pictures) > 1:
-        files["scan.png"] = _from_all_round(found)
-    return PipelineOutput(result=result_of(job.options, found, model.part_names), artifacts=files)
+    files[BODY] = _from_all_round(found)
+    return PipelineOutput(result=fit_result(found, part_names=model.part_names), files=files)
 
 
 def _from_all_round(found: FitResult) -> bytes:

@@ -1,6 +1,6 @@
 """What a child process runs: a pipeline from a request to a result and its files.
 
-A fit of one or several pictures goes through ``run``, what is derived from one through ``derive``.
+A fit goes through ``run``, what is derived from one through ``derive``.
 
 The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
 is imported in the child process only: the worker itself loads no numerics.
@@ -14,17 +14,12 @@ from typing import Generic, Protocol, TypeVar, cast
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.fit import FitRequest
 from api_schemas.problems import FieldProblem, field_problem
-from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
-from api_schemas.scans import ScanOptions, ScanResult
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.numerics.tasks import ProblemError
-
-AnyFitOptions = FitOptions | ScanOptions
-AnyFitResult = FitResult | ScanResult
-"""Of one picture, or of several."""
 
 Options_co = TypeVar("Options_co", bound=AnyDerivationOptions, covariant=True)
 Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
@@ -32,13 +27,13 @@ Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PipelineInput:
-    """A fit as it reaches the pipeline: options with named points, encoded pictures in their order.
+    """A fit as it reaches the pipeline: named points, encoded pictures in the order of its views.
 
     ``models`` is the folder of the body models, None for those shipped with the package;
     ``detector`` that of the detector's weights, None for those of their package.
     """
 
-    options: AnyFitOptions
+    request: FitRequest
     pictures: tuple[SentPicture[bytes], ...]
     max_pixels: int
     models: Path | None = None
@@ -47,10 +42,10 @@ class PipelineInput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PipelineOutput:
-    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
+    """The result, whose list of files is still empty, and the files by name."""
 
-    result: AnyFitResult
-    artifacts: Mapping[str, bytes]
+    result: FitResult
+    files: Mapping[str, bytes]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,10 +61,10 @@ class DerivationInput(Generic[Options_co]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DerivationOutput(Generic[Result_co]):
-    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
+    """The result, whose list of files is still empty, and the files by name."""
 
     result: Result_co
-    artifacts: Mapping[str, bytes]
+    files: Mapping[str, bytes]
 
 
 class UnusableInputError(ProblemError):

@@ -8,12 +8,11 @@ from pydantic import TypeAdapter
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivations import DerivationRequest
-from api_schemas.requests import FitOptions
-from api_schemas.scans import ScanOptions
-from service.engine.port import FIT, SCAN
+from api_schemas.fit import FitRequest
+from service.engine.port import FIT
 from service.jobs.inputs import pictures_of
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
-from service.worker.artifacts import with_result_document
+from service.worker.files import with_result_document
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -22,7 +21,7 @@ from service.worker.pipeline_port import (
 )
 
 DERIVATION: Final = "derivation"
-"""The task of every job that derives from a fit or scan; that of others has their kind's name."""
+"""The task of every job that derives from a fit."""
 
 OPTIONS: Final = "options"
 """The part that says what is asked for."""
@@ -39,28 +38,23 @@ Derive = Callable[[DerivationInput[AnyDerivationOptions], Observe], DerivationOu
 def job_tasks(run: Run, derive: Derive) -> Mapping[str, Task]:
     """The table of a pipeline (:class:`service.worker.pipeline_port.Pipeline`)."""
 
-    def fit_of(options: type[FitOptions] | type[ScanOptions]) -> Task:
-        def fit(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
-            fitted = run(fit_input(setup, parts, options), observe)
-            seconds = SECONDS.dump_json(fitted.result.stage_seconds)
-            files = with_result_document(fitted.result, fitted.artifacts)
-            return {**files, STAGE_SECONDS: seconds}
-
-        return fit
+    def fit(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+        fitted = run(fit_input(setup, parts), observe)
+        seconds = SECONDS.dump_json(fitted.result.stage_seconds)
+        files = with_result_document(fitted.result, fitted.files)
+        return {**files, STAGE_SECONDS: seconds}
 
     def derivation(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
         derived = derive(derivation_input(setup, parts), observe)
-        return with_result_document(derived.result, derived.artifacts)
+        return with_result_document(derived.result, derived.files)
 
-    return {FIT: fit_of(FitOptions), SCAN: fit_of(ScanOptions), DERIVATION: derivation}
+    return {FIT: fit, DERIVATION: derivation}
 
 
-def fit_input(
-    setup: ChildSetup, parts: Parts, options: type[FitOptions] | type[ScanOptions]
-) -> PipelineInput:
+def fit_input(setup: ChildSetup, parts: Parts) -> PipelineInput:
     """The pictures of one person."""
     return PipelineInput(
-        options=options.model_validate_json(parts[OPTIONS]),
+        request=FitRequest.model_validate_json(parts[OPTIONS]),
         pictures=pictures_of(parts),
         max_pixels=setup.max_pixels,
         models=setup.models,

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Sequence
 
-from api_schemas import known as wire_known
-from api_schemas import requests as wire
+from api_schemas.fit import FitRequest as AskedFit
+from api_schemas.person import Person as AskedPerson
+from api_schemas.person import UncertainMeasurement
+from api_schemas.picture import ClothingByRegion, ViewRequest
 from api_schemas.points import Point, Points, PointSource, points_by_name
 from api_schemas.problems import FieldProblem
-from api_schemas.scans import ScanOptions, ScanViewOptions
 from fitter.detection.landmark_meanings import INDEX_OF_POINT, UNSEEN_CONFIDENCE, spread_m
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress
@@ -22,7 +23,8 @@ from fitter.request import (
     SaidClothing,
     View,
 )
-from fitter.vocabulary.choices import Clothing, Cues
+from fitter.vocabulary.choices import Cues
+from fitter.vocabulary.measurements import WEIGHT
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.submissions.detector import DETECTOR_MISSING
@@ -31,32 +33,30 @@ SEEN = 2
 
 
 def fit_request(
-    options: wire.FitOptions | ScanOptions,
-    pictures: Sequence[SentPicture[bytes]],
-    *,
-    max_pixels: int,
+    asked: AskedFit, pictures: Sequence[SentPicture[bytes]], *, max_pixels: int
 ) -> FitRequest:
     """Translate a request whose points are named, and its encoded pictures in their order."""
     return FitRequest(
-        person=person(options),
-        views=views(options, pictures),
+        person=person(asked),
+        views=tuple(
+            _view(view, asked.cues, sent) for view, sent in zip(asked.views, pictures, strict=True)
+        ),
         choices=Choices(
-            optimizer=options.optimizer,
-            paper=_paper(options),
-            force=options.force,
+            optimizer=asked.optimizer,
+            paper=_paper(asked),
+            force=asked.force,
             max_pixels=max_pixels,
         ),
     )
 
 
-def _paper(options: wire.FitOptions | ScanOptions) -> Paper | None:
-    asked = options.paper if isinstance(options, wire.FitOptions) else None
-    if asked is None:
+def _paper(asked: AskedFit) -> Paper | None:
+    if asked.paper is None:
         return None
-    return Paper(energies=frozenset(asked.energies), free_height=asked.free_height)
+    return Paper(energies=frozenset(asked.paper.energies), free_height=asked.paper.free_height)
 
 
-def person(asked: wire.Person) -> Person:
+def person(asked: AskedPerson) -> Person:
     """Translate what is said of the person."""
     return Person(
         gender=asked.gender,
@@ -65,27 +65,20 @@ def person(asked: wire.Person) -> Person:
     )
 
 
-def views(
-    options: wire.FitOptions | ScanOptions, pictures: Sequence[SentPicture[bytes]]
-) -> tuple[View, ...]:
-    """Translate what is said of each picture."""
-    return tuple(
-        _view(asked, options.cues, sent)
-        for asked, sent in zip(options.pictures, pictures, strict=True)
-    )
-
-
-def _view(asked: wire.FitOptions | ScanViewOptions, cues: Cues, sent: SentPicture[bytes]) -> View:
+def _view(asked: ViewRequest, cues: Cues, sent: SentPicture[bytes]) -> View:
+    clothing = asked.clothing
+    if isinstance(clothing, ClothingByRegion):
+        clothing = SaidClothing(upper=clothing.upper, lower=clothing.lower)
     return View(
         image=sent.image,
         mask=sent.mask,
         kind=asked.view,
-        clicks=clicks(asked.points),
+        clicks=clicks(asked.given_points),
         focal_length_px=asked.focal_length_px,
         focal_length_35mm=asked.focal_length_35mm,
         cues=cues,
-        clothing=_clothing(asked),
-        complete_clicks=asked.complete_points,
+        clothing=clothing,
+        complete_clicks=asked.are_points_completed,
         segmentation=asked.segmentation,
         slant_hints=asked.slant_hints,
         light=LightGuess(
@@ -98,31 +91,22 @@ def _view(asked: wire.FitOptions | ScanViewOptions, cues: Cues, sent: SentPictur
     )
 
 
-def _clothing(asked: wire.PictureChoices) -> Clothing | SaidClothing:
-    by_region = asked.clothing_by_region
-    if by_region is None:
-        return asked.clothing
-    return SaidClothing(upper=by_region.upper, lower=by_region.lower)
-
-
 def clicks(points: Points) -> dict[str, Click]:
     """Translate named points; proposed ones get the spread of proposals of that name."""
     return {name: _click(name, point) for name, point in points_by_name(points).items()}
 
 
-def known_measurements(known: wire_known.KnownMeasurements) -> dict[str, KnownMeasurement]:
+def known_measurements(known: AskedPerson) -> dict[str, KnownMeasurement]:
     """Translate what is known besides the height, by measurement name, each in its unit."""
     measurements = {
         name: KnownMeasurement(value=given.value, standard_error=given.standard_error)
-        if isinstance(given, wire_known.UncertainMeasurement)
+        if isinstance(given, UncertainMeasurement)
         else KnownMeasurement(value=given)
         for name, given in known.measurements.items()
     }
     if known.weight_kg is None:
         return measurements
-    return {
-        wire_known.WEIGHT: KnownMeasurement(value=known.weight_kg, field="weight_kg")
-    } | measurements
+    return {WEIGHT: KnownMeasurement(value=known.weight_kg, field="weight_kg")} | measurements
 
 
 def report(progress: Progress) -> Report:
@@ -153,12 +137,10 @@ def detector_problem(error: DetectorUnavailableError, *, field: str = "points") 
     )
 
 
-def proposed_field(options: wire.FitOptions | ScanOptions) -> str:
+def proposed_field(asked: AskedFit) -> str:
     """The first field that asks for points to be proposed."""
-    if len(options.pictures) == 1:
-        return "points"
-    first = next(place for place, asked in enumerate(options.pictures) if asked.complete_points)
-    return f"views.{first}.points"
+    place = next(place for place, view in enumerate(asked.views) if view.are_points_completed)
+    return f"views.{place}.points"
 
 
 def _click(name: str, point: Point) -> Click:

@@ -125,11 +125,11 @@ def _used(deployment: Deployment) -> list[float]:
 
 
 def _loop(answer: Connection) -> None:
-    from api_schemas.requests import FitOptions
+    from api_schemas.fit import FitRequest
     from service.jobs.inputs import SentPicture
     from service.submissions.submission import check_fit
     from service.worker import pipeline
-    from service.worker.artifacts import with_result_document
+    from service.worker.files import with_result_document
     from service.worker.pipeline_port import PipelineInput
 
     while submissions := answer.recv():
@@ -138,7 +138,7 @@ def _loop(answer: Connection) -> None:
             checked = check_fit(
                 request=each.request.encode(), image=each.image, mask=None, max_pixels=10**7
             )
-            options = FitOptions.model_validate_json(checked.options.model_dump_json())
+            options = FitRequest.model_validate_json(checked.options.model_dump_json())
             output = pipeline.run(
                 PipelineInput(
                     options=options,
@@ -148,5 +148,5 @@ def _loop(answer: Connection) -> None:
                 ),
                 lambda _: None,
             )
-            with_result_document(output.result, output.artifacts)
+            with_result_document(output.result, output.files)
         answer.send(_Taken(wall_s=time.monotonic() - began, fits_s=time.process_time() - used))

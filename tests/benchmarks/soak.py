@@ -83,7 +83,7 @@ def _fetched_and_erased(client: httpx.Client, kept: list[str]) -> int:
             for _ in events.iter_lines():
                 pass
         job = client.get(path).raise_for_status().json()
-        for file in job["links"]["artifacts"].values():
+        for file in job["links"]["files"].values():
             client.get(file).raise_for_status()
         client.delete(path).raise_for_status()
     del kept[: len(oldest)]

@@ -10,7 +10,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from fitter.export import artifacts
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.progress import Progress, Stage

@@ -66,7 +66,7 @@ def _posted(client: httpx.Client, request: FitRequest) -> dict[str, float]:
     job = client.get(job["links"]["self"]).raise_for_status().json()
     assert job["state"] == "succeeded", job
     result = client.get(job["links"]["result"]).raise_for_status().json()
-    for path in job["links"]["artifacts"].values():
+    for path in job["links"]["files"].values():
         client.get(path).raise_for_status()
     return {
         "accepted": accepted,

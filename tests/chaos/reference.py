@@ -55,7 +55,7 @@ def outcome(caller: Caller, job: Mapping[str, Any]) -> Outcome:
     result = json.loads(caller.get(job["links"]["result"]).raise_for_status().content)
     files = {
         name: hashlib.sha256(caller.get(path).raise_for_status().content).hexdigest()
-        for name, path in job["links"]["artifacts"].items()
+        for name, path in job["links"]["files"].items()
         if name != RESULT
     }
     listed = {artifact["name"]: artifact["sha256"] for artifact in result.pop("artifacts")}

@@ -17,13 +17,8 @@ from tests.integration.service.receiver import Receiver
 SHOWN = "https://example.org/hooks/maquette"
 """Stands for the address that notices are really sent to."""
 
-OTHER = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
-JOBS = {
-    "fits": "b0d3cd76-33ef-4c01-b18c-190159d7df68",
-    "scans": "7c9f2f0e-3d1a-4a7e-8a53-5e0d9b1c2f44",
-    "derivations": "5f1c2a34-8b1e-4c57-9a1d-0c6f3f0f9b21",
-}
-"""Ids that stand for all of a kind."""
+FIT = "b0d3cd76-33ef-4c01-b18c-190159d7df68"
+"""The id that stands for that of any fit."""
 
 UUID = r"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}"
 MOMENT = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d+)?(?=Z)")
@@ -41,12 +36,12 @@ FIGURE = re.compile(r"\d+(?:\.\d+)?(?:e-?\d+)?")
 PASSING = ("stage", "progress", "view")
 
 SHOWN_EVENTS = 4
-"""How to retry, that the job waits and runs, and where it is first."""
+"""How to retry, that the fit waits and runs, and where it is first."""
 
 MOST_ITEMS = 4
 SHORTENED = 2
 ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "pose", "stages")
-MAPS = ("artifacts", "points", "residual_px")
+MAPS = ("points", "residual_px")
 """Objects whose names are many: the first is kept."""
 
 
@@ -57,8 +52,6 @@ class Recorder:
         self.requests: dict[str, dict[str, Any]] = {}
         self.answers: dict[str, dict[str, dict[str, Any]]] = {}
         self.notices: dict[str, Any] = {}
-        self.other = OTHER
-        self._known: dict[str, str] = {}
         self._client = client
         self._receiver = receiver
         self._operations = [
@@ -79,7 +72,7 @@ class Recorder:
             self.requests.setdefault(operation, {})[asked_as] = sent["json"]
         if "json" in sent:
             real = json.dumps(sent["json"]).replace(SHOWN, self._receiver.url())
-            sent["json"] = json.loads(real.replace(OTHER, self.other))
+            sent["json"] = json.loads(real)
         answer = self._client.request(method, path, **sent)
         assert answer.is_success, answer.text
         if shown_as:
@@ -90,20 +83,15 @@ class Recorder:
             kept.setdefault(shown_as, self._shown(said))
         return answer
 
-    def is_other(self, identity: str) -> None:
-        """Have a job stand for another one of the same person."""
-        self.other = identity
-        self._known[identity] = OTHER
-
     def until_ended(self, path: str) -> dict[str, Any]:
-        """Wait for the end of a job."""
-        return self.until(path, lambda job: job["state"] not in ("queued", "running"))
+        """Wait for the end of a fit."""
+        return self.until(path, lambda fit: fit["state"] not in ("queued", "running"))
 
     def until(self, path: str, is_so: Any) -> dict[str, Any]:
-        """Look at a job until it is as it should be."""
-        while not is_so(job := self._client.get(path).raise_for_status().json()):
+        """Look at a fit until it is as it should be."""
+        while not is_so(fit := self._client.get(path).raise_for_status().json()):
             time.sleep(0.05)
-        return job
+        return fit
 
     def take_notice(self, name: str) -> None:
         """Keep the next notice."""
@@ -114,11 +102,8 @@ class Recorder:
     def _shown(self, value: Any) -> Any:
         """The value as an example: short, and with ids and times that are always the same."""
         text = json.dumps(_short(value))
-        for kind, identity in JOBS.items():
-            for found in re.findall(rf"/{kind}/({UUID})", text):
-                self._known.setdefault(found, identity)
-        for found, identity in self._known.items():
-            text = text.replace(found, identity)
+        for found in re.findall(rf"/fits/({UUID})", text):
+            text = text.replace(found, FIT)
         for second, moment in enumerate(sorted(set(MOMENT.findall(text)))):
             text = text.replace(f"{moment}Z", f"2026-05-04T09:30:{second:02}.995Z")
         for pattern, same in SAME:
@@ -143,6 +128,8 @@ def _short(value: Any, name: str = "") -> Any:
         items = list(value.items())
         if name in MAPS:
             items = items[:1]
+        if name == "files":
+            items = items[:SHORTENED]
         return {key: _short(each, key) for key, each in items}
     return value
 
@@ -151,7 +138,7 @@ def differences(recorded: Any, shown: Any, where: str = "") -> list[str]:
     """Where what was recorded is otherwise than what is shown, but for figures.
 
     A machine computes other last digits, needs other times and writes files of other sizes; how far
-    a job has come when it is looked at is chance.
+    a fit has come when it is looked at is chance.
     """
     if isinstance(recorded, dict) and isinstance(shown, dict):
         names = recorded.keys() | shown.keys()

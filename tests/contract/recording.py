@@ -17,9 +17,10 @@ import httpx
 from PIL import Image
 
 import service.api
-from service.demo_data.sample import load_sample, load_scan_sample
+from service.demo_data.sample import load_sample, load_views_sample
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing, Role
+from service.representation.jobs import FITS
 from service.settings import Settings
 from tests.contract.recorder import SHOWN, Recorder
 from tests.e2e.service import (
@@ -34,76 +35,39 @@ RECORDED = Path(service.api.__file__).parent / "examples.json"
 
 WEBHOOK = {"url": SHOWN, "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"}
 GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
-DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
-    "caricature": {"kind": "caricature", "factor": 2.5},
-    "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
-    "pose": {
-        "kind": "pose",
-        "pose": "standing",
-        "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
-    },
-    "walk": {"kind": "animation"},
-    "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
-    "size": {
-        "kind": "size",
-        "chart": {
-            "sizes": [
-                {
-                    "label": label,
-                    "measurements": {"chest_girth": {"low": chest, "high": chest + 4}},
-                }
-                for label, chest in (("M", 94), ("L", 98))
-            ]
-        },
-    },
-    "size-of-a-table": {
-        "kind": "size",
-        "chart_csv": "size,chest_girth,waist_girth_navel\nS,90-94,76-80\nM,94-98,80-84\n",
-        "ease": {"waist_girth_navel": 2},
-        "tolerances": {"waist_girth_navel": {"too_small": 1, "too_large": 4}},
-    },
-    "body-composition": {"kind": "body_composition", "age_years": 34},
-    "told-of-its-end": {"kind": "pose", "webhook": WEBHOOK},
-}
 
 
 def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dict[str, Any]:
     """Ask a service for one of everything."""
     recorder = Recorder(client, receiver)
-    sample, pair = load_sample(), load_scan_sample()
+    sample, pair = load_sample(), load_views_sample()
     person = json.loads(sample.request)
-    points = {name: [at["x"], at["y"]] for name, at in person["points"].items()}
+    (seen,) = person.pop("views")
+    points = {name: [at["x"], at["y"]] for name, at in seen["points"].items()}
     image, *views = _images(recorder, sample.image, *pair.images)
     nobody = recorder.ask("", "POST", "/v1/images", files={"image": _empty()}).json()["id"]
-    fit = person | {"image_id": image, "points": points}
-    auto = {"gender": "female", "height_m": 1.68, "image_id": image, "points": "auto"}
-    _jobs(
+    clicked = {"image_id": image, "points": points}
+    fit = person | {"views": [clicked]}
+    auto = {"gender": "female", "height_m": 1.68, "views": [{"image_id": image}]}
+    asked = json.loads(pair.request)
+    several = asked | {
+        "views": [
+            {"view": view["view"], "image_id": each, "points": view["points"]}
+            for view, each in zip(asked["views"], views, strict=True)
+        ]
+    }
+    _fits(
         recorder,
-        "fits",
         {
             "uploaded-picture": fit,
             "points-proposed": auto,
-            "told-of-its-end": fit
-            | {"measurements": GIRTHS, "weight_kg": 75, "cues": "SE", "focal_length_35mm": 50}
-            | {"label": "customer-4711", "webhook": WEBHOOK},
+            "front-and-side": several,
+            "told-of-its-end": person
+            | {"measurements": GIRTHS, "weight_kg": 75, "cues": "SE"}
+            | {"label": "customer-4711", "webhook": WEBHOOK}
+            | {"views": [clicked | {"focal_length_35mm": 50}]},
         },
-        failing=auto | {"image_id": nobody},
-    )
-    asked = json.loads(pair.request)
-    placed = [
-        {"view": view["view"], "image_id": each, "points": view["points"]}
-        for view, each in zip(asked["views"], views, strict=True)
-    ]
-    proposed = [each | {"points": "auto"} for each in placed]
-    scan = {"gender": asked["gender"], "height_m": asked["height_m"]}
-    _jobs(
-        recorder,
-        "scans",
-        {
-            "front-and-side": scan | {"views": placed},
-            "told-of-its-end": scan | {"views": proposed, "webhook": WEBHOOK},
-        },
-        failing=scan | {"views": [each | {"image_id": nobody} for each in proposed]},
+        failing=auto | {"views": [{"image_id": nobody}]},
     )
     _estimates(recorder, image, points, person)
     _whole_service(recorder, metrics_key)
@@ -132,70 +96,42 @@ def _empty() -> bytes:
     return encoded.getvalue()
 
 
-def _jobs(
-    recorder: Recorder, kind: str, submissions: Mapping[str, Any], *, failing: Mapping[str, Any]
+def _fits(
+    recorder: Recorder, submissions: Mapping[str, Any], *, failing: Mapping[str, Any]
 ) -> None:
-    """Ask for fits or scans and all that can be asked of them, then for what is derived."""
-    path = f"/v1/{kind}"
-    usual, *_ = submissions.values()
-    other = recorder.ask("", "POST", path, json=usual).headers["Location"]
-    recorder.is_other(recorder.until_ended(other)["id"])
+    """Ask for fits and all that can be asked of them."""
     for name, each in submissions.items():
-        accepted = recorder.ask("queued", "POST", path, asked_as=name, json=each)
+        accepted = recorder.ask("queued", "POST", FITS, asked_as=name, json=each)
         told = recorder.until_ended(accepted.headers["Location"])
         assert told["state"] == "succeeded", told
-    recorder.take_notice(f"{kind.removesuffix('s')}-ended")
-    done = _life(recorder, path, usual, slow=usual | {"optimizer": "simplex"})
-    failed = recorder.ask("", "POST", path, json=failing).headers["Location"]
-    recorder.until_ended(failed)
-    recorder.ask("failed", "GET", failed)
-    below = done["links"]["derivations"]
-    for name, each in DERIVATIONS.items():
-        accepted = recorder.ask("queued", "POST", below, asked_as=name, json=each)
-        made = recorder.until_ended(accepted.headers["Location"])
-        assert made["state"] == "succeeded", made
-        if kind == "fits":
-            recorder.ask(made["kind"], "GET", made["links"]["result"])
-    prefix = "" if kind == "fits" else "scan-"
-    recorder.take_notice(f"{prefix}derivation-ended")
-    _life(recorder, below, DERIVATIONS["pose"], slow=DERIVATIONS["texture"])
-
-
-def _life(
-    recorder: Recorder,
-    path: str,
-    usual: Mapping[str, Any],
-    *,
-    slow: Mapping[str, Any],
-) -> dict[str, Any]:
-    """Ask all that can be asked of a job; returns the one that has succeeded.
-
-    ``slow`` asks for one that can be looked at while it runs.
-    """
-    waiting: dict[str, Any] = {"headers": {"Prefer": "wait=60"}}
-    answer = recorder.ask("succeeded", "POST", path, json=usual, **waiting)
-    done = answer.json()
-    links = done["links"]
-    begun = recorder.ask("", "POST", path, json=slow).headers["Location"]
-    recorder.until(begun, lambda job: job["state"] == "running" and job["progress"] > 0)
-    recorder.ask("" if "kind" in slow else "running", "GET", begun)
-    recorder.ask("stopping", "POST", f"{begun}/cancel")
-    recorder.until_ended(begun)
-    recorder.ask("canceled", "POST", f"{begun}/cancel")
+        if name == "front-and-side":
+            recorder.ask(name, "GET", told["links"]["result"])
+    recorder.take_notice("fit-ended")
+    usual, *_ = submissions.values()
+    waiting = {"Prefer": "wait=60"}
+    answer = recorder.ask("succeeded", "POST", FITS, json=usual, headers=waiting)
+    links = answer.json()["links"]
+    begun = recorder.ask("", "POST", FITS, json=usual | {"optimizer": "simplex"})
+    path = begun.headers["Location"]
+    recorder.until(path, lambda fit: fit["state"] == "running" and fit["progress"] > 0)
+    recorder.ask("running", "GET", path)
+    recorder.ask("stopping", "POST", f"{path}/cancel")
+    recorder.until_ended(path)
+    recorder.ask("canceled", "POST", f"{path}/cancel")
     recorder.ask("succeeded", "GET", links["self"])
-    recorder.ask("queued", "POST", links["retry"])
-    recorder.ask("succeeded", "POST", links["retry"], **waiting)
     recorder.ask("short", "GET", links["events"])
     recorder.ask("as-understood", "GET", links["request"])
-    recorder.ask(done.get("kind", "sample"), "GET", links["result"])
-    recorder.ask("first-page", "GET", f"{path}?limit=1")
-    return done
+    recorder.ask("sample", "GET", links["result"])
+    recorder.ask("first-page", "GET", f"{FITS}?limit=1")
+    failed = recorder.ask("", "POST", FITS, json=failing).headers["Location"]
+    recorder.until_ended(failed)
+    recorder.ask("failed", "GET", failed)
 
 
 def _estimates(
     recorder: Recorder, image: str, points: Mapping[str, Any], person: Mapping[str, Any]
 ) -> None:
-    known = {"gender": person["gender"], "height_m": person["height_m"], "points": points}
+    known = person | {"points": points}
     for path, shown, asked, body in (
         ("initial-poses", "standing", "uploaded-picture", known | {"image_id": image}),
         ("initial-poses", "", "size-alone", known | {"image_size": {"width": 720, "height": 960}}),

@@ -9,13 +9,14 @@ from typing import Any, Final
 
 from pydantic import BaseModel
 
-from api_schemas.requests import FitOfImage
+from api_schemas.fit import FitRequest
+from api_schemas.picture import ViewRequest
 from tests.contract.document import REPOSITORY, exported
 
 PAGE: Final = REPOSITORY / "service" / "docs" / "guide" / "fields.md"
 BEGIN, END = "<!-- fields -->\n", "<!-- until here -->\n"
-FIRST: Final = ("gender", "height_m", "weight_kg", "points", "measurements", "clothing", "cues")
-"""What most callers send stands first."""
+TYPES: Final = ((FitRequest, ""), (ViewRequest, "views.0."))
+"""What is said of the person and of the fit, and of a picture."""
 
 MOST_VALUES: Final = 6
 
@@ -25,26 +26,29 @@ Schema = Mapping[str, Any]
 def request_table() -> str:
     """Rows of Markdown: name, type, default and meaning of each field."""
     schemas = exported()["components"]["schemas"]
-    fields = schemas["FitOfImage"]["properties"]
-    names = [*FIRST, *(name for name in fields if name not in FIRST)]
-    rows = [f"| {' | '.join(_cells(name, fields[name], schemas))} |" for name in names]
+    rows = [
+        f"| {' | '.join(_cells(kind, name, schemas, at=prefix))} |"
+        for kind, prefix in TYPES
+        for name in kind.model_fields
+    ]
     return "\n".join(("| field | type | default | meaning |", "|---|---|---|---|", *rows, ""))
 
 
-def _cells(name: str, field: Schema, schemas: Schema) -> Iterator[str]:
-    yield f"`{name}`"
+def _cells(kind: type[BaseModel], name: str, schemas: Schema, *, at: str) -> Iterator[str]:
+    field = schemas[kind.__name__]["properties"][name]
+    yield f"`{at}{name}`"
     yield " or ".join(dict.fromkeys(_kinds(field, schemas)))
-    yield _default(name)
+    yield _default(kind, name)
     said = " ".join(_descriptions(field)).partition(" Default `")[0]
     yield " ".join(said.split()).replace("|", "\\|")
 
 
-def _default(name: str) -> str:
-    field = FitOfImage.model_fields[name]
+def _default(kind: type[BaseModel], name: str) -> str:
+    field = kind.model_fields[name]
     if field.is_required():
         return "needed"
     value = field.get_default(call_default_factory=True)
-    if value is None or isinstance(value, BaseModel | dict):
+    if value is None or isinstance(value, BaseModel | dict | tuple):
         return ""
     shown = value.value if isinstance(value, Enum) else str(value).lower()
     return f"`{shown}`"

@@ -86,4 +86,4 @@ def ended_job(client: httpx.Client, response: httpx.Response) -> dict:
 
 def fits(client: httpx.Client) -> set[str]:
     """The ids of the newest fits there are."""
-    return {each["id"] for each in client.get("/v1/fits").raise_for_status().json()["jobs"]}
+    return {each["id"] for each in client.get("/v1/fits").raise_for_status().json()["fits"]}

@@ -17,7 +17,7 @@ from tests.npm_packages import installed
 CLIENTS = REPOSITORY / "tests" / "clients"
 DEMO = REPOSITORY / "service" / "demo_data"
 SAMPLE = [str(DEMO / name) for name in ("sample.jpg", "request.json")]
-PAIR = [str(DEMO / name) for name in ("scan_front.jpg", "scan_side.jpg", "scan.json")]
+PAIR = [str(DEMO / name) for name in ("front.jpg", "side.jpg", "scan.json")]
 TOOLS = Path(sys.executable).parent
 
 

@@ -45,7 +45,7 @@ def same(read: np.ndarray, vertices: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("name", BODIES)
 def test_every_format_holds_the_mesh_of_the_glb(client: httpx.Client, fit, tmp_path: Path, name):
-    files = f"{fit['links']['self']}/artifacts/{name}"
+    files = f"{fit['links']['self']}/files/{name}"
     vertices, triangles = mesh_of(client.get(f"{files}.glb").content)
     for ending in ("obj", "ply", "stl"):
         answer = client.get(f"{files}.{ending}").raise_for_status()
@@ -70,7 +70,7 @@ def test_every_format_holds_the_mesh_of_the_glb(client: httpx.Client, fit, tmp_p
 
 def test_measurements_are_the_results_with_their_units(client: httpx.Client, fit):
     result = client.get(fit["links"]["result"]).json()
-    table = client.get(f"{fit['links']['self']}/artifacts/measurements.csv").text
+    table = client.get(f"{fit['links']['self']}/files/measurements.csv").text
     rows = list(csv.DictReader(io.StringIO(table, newline="")))
     assert [(row["name"], row["unit"], float(row["value"])) for row in rows] == [
         (each["name"], each["unit"], each["value"]) for each in result["measurements"]
@@ -80,13 +80,11 @@ def test_measurements_are_the_results_with_their_units(client: httpx.Client, fit
 def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
     client: httpx.Client, fit, tmp_path: Path
 ):
-    posed, triangles = mesh_of(
-        client.get(f"{fit['links']['self']}/artifacts/body_posed.glb").content
-    )
+    posed, triangles = mesh_of(client.get(f"{fit['links']['self']}/files/body_posed.glb").content)
     asked = {"kind": "texture", "colours": "picture", "size": 512}
     job = ended_job(client, client.post(fit["links"]["derivations"], json=asked))
-    for name in ("body_textured.obj", "body_textured.mtl", "texture.png"):
-        answer = client.get(f"{job['links']['self']}/artifacts/{name}").raise_for_status()
+    for name in ("body_textured.obj", "body_textured.mtl", "texture.png", "body_textured.usdz"):
+        answer = client.get(f"{job['links']['self']}/files/{name}").raise_for_status()
         (tmp_path / name).write_bytes(answer.content)
     rows = (tmp_path / "body_textured.obj").read_text().splitlines()
     vertices = np.array([row.split()[1:] for row in rows if row.startswith("v ")], float)
@@ -98,7 +96,7 @@ def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
 
 def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client, fit):
     job = ended_job(client, client.post(fit["links"]["derivations"], json={"kind": "animation"}))
-    files = f"{job['links']['self']}/artifacts"
+    files = f"{job['links']['self']}/files"
     read = {
         name: plyfile.PlyData.read(io.BytesIO(client.get(f"{files}/{name}.ply").content))["vertex"]
         for name in ("body_animated", "body_skinned")

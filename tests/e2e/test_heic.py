@@ -41,9 +41,9 @@ def test_a_heic_gives_the_measurements_of_the_jpeg(client: httpx.Client):
     job = fitted(client, HEIC)
     of_jpeg = fitted(client, load_sample().image)
     assert waist(client, job) == pytest.approx(waist(client, of_jpeg), abs=1.5)
-    shown = client.get(job["links"]["image"], headers={"Accept": "image/jpeg"})
+    shown = client.get(job["links"]["files"]["views/0/image"], headers={"Accept": "image/jpeg"})
     assert Image.open(io.BytesIO(shown.content)).size == (720, 960)
-    assert client.get(job["links"]["image"]).content == HEIC
+    assert client.get(job["links"]["files"]["views/0/image"]).content == HEIC
 
 
 def test_a_scan_of_heics_succeeds(client: httpx.Client):

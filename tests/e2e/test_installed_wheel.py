@@ -103,10 +103,10 @@ def test_a_sample_of_the_page_is_fitted_over_http_and_posed(service: httpx.Clien
     form = {"image": ("woman.jpg", picture), "request": ("request.json", request)}
     fit = ended_job(service, service.post("/v1/fits", files=form))
     assert fit["state"] == "succeeded", fit["problem"]
-    asked = service.post(fit["links"]["derivations"], json={"kind": "pose"})
-    pose = ended_job(service, asked)
-    assert pose["state"] == "succeeded", pose["problem"]
-    assert service.get(pose["links"]["artifacts"]["body_reposed.glb"]).content.startswith(b"glTF")
+    asked = service.post(fit["links"]["derivations"], json={"kind": "report"})
+    report = ended_job(service, asked)
+    assert report["state"] == "succeeded", report["problem"]
+    assert service.get(report["links"]["files"]["report.pdf"]).content.startswith(b"%PDF")
 
 
 def test_the_demo_and_a_fit_without_a_service_leave_their_files(

@@ -37,7 +37,7 @@ def fit(service: httpx.Client) -> tuple[dict, dict[str, bytes]]:
     result = service.get(job["links"]["result"]).raise_for_status().json()
     files = {
         name: service.get(path).raise_for_status().content
-        for name, path in job["links"]["artifacts"].items()
+        for name, path in job["links"]["files"].items()
     }
     return result, files
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from api_schemas.scans import ScanRequest
+from api_schemas.fit import FitRequest
 from tests.e2e.service import REPOSITORY, ended_job
 from tests.readme import README, block
 
@@ -89,25 +89,9 @@ def test_the_request_fits_the_sample_picture(address: str):
     assert stature["value"] == pytest.approx(180.4, abs=0.01)
 
 
-def test_the_scan_examples_measure_the_sample_pair(address: str, clean_root: Path):
-    done = run(["bash", "-euo", "pipefail", "-c", block("scan")], SERVICE=address)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.count("event: end") == 1
-    assert json.loads((clean_root / "scan.json").read_text())["measurements"]
-    assert (clean_root / "overlay_1.png").read_bytes()[1:4] == b"PNG"
-
-
-def test_the_request_of_a_scan_says_what_was_meant():
-    asked = ScanRequest.model_validate_json(block("scan-request"))
+def test_the_request_of_several_pictures_says_what_was_meant():
+    asked = FitRequest.model_validate_json(block("views-request"))
     assert [each.view for each in asked.views] == ["front", "side"]
-
-
-def test_the_command_line_example_of_a_scan_writes_all_files(clean_root: Path):
-    if not (REPOSITORY / ".venv" / "bin" / "maquette").exists():
-        pytest.skip("the README's .venv is not there: run through make test")
-    done = run(["bash", "-euo", "pipefail", "-c", block("scan-command")])
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert (clean_root / "scan-output" / "overlay_1.png").exists()
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node.js to run the fetch example")
@@ -122,7 +106,7 @@ def test_the_command_line_example_writes_all_files(clean_root: Path):
         pytest.skip("the README's .venv is not there: run through make test")
     done = run(["bash", "-euo", "pipefail", "-c", block("fit")])
     assert done.returncode == 0, done.stdout + done.stderr
-    assert (clean_root / "fit-output" / "overlay.png").exists()
+    assert (clean_root / "fit-output" / "views" / "0" / "overlay.png").exists()
 
 
 def test_make_demo_prints_measurements_beside_the_truth(clean_root: Path):
@@ -132,7 +116,7 @@ def test_make_demo_prints_measurements_beside_the_truth(clean_root: Path):
     assert done.returncode == 0, done.stdout + done.stderr
     for word in ("SES", "truth", "waist", "demo-output"):
         assert word in done.stdout
-    assert (clean_root / "demo-output" / "body_posed.glb").exists()
+    assert (clean_root / "demo-output" / "views" / "0" / "body_posed.glb").exists()
 
 
 @pytest.mark.parametrize(

@@ -20,5 +20,5 @@ def test_an_example_that_is_no_answer_would_be_noticed():
     fit = other["answers"]["get_fit"]["200"]
     fit["succeeded"]["state"] = "failed"
     del fit["running"]["label"]
-    other["answers"]["list_fits"]["200"]["first-page"]["jobs"].clear()
+    other["answers"]["list_fits"]["200"]["first-page"]["fits"].clear()
     assert len(differences(json.loads(json.dumps(other)), shown)) == 3

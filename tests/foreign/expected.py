@@ -54,17 +54,15 @@ class Shown:
 
 def shown_by(name: str, files: Path) -> Shown:
     """What the file of :data:`tests.foreign.artifacts.GLB_FILES` is to show."""
-    job = "scan" if name.startswith("scan") else "fit"
-    return _SHOWN[name](_Results(files, job))
+    return _SHOWN[name](_Results(files))
 
 
 class _Results:
-    """Result documents of the fit or the scan and of what was derived from it."""
+    """Result documents of the fit and of what was derived from it."""
 
-    def __init__(self, files: Path, job: str) -> None:
+    def __init__(self, files: Path) -> None:
         self._files = files
-        self._job = job
-        gender = Gender(self.of(job)["gender"])
+        gender = Gender(self.of("fit")["gender"])
         self.fitted: PreparedModel = _prepared(gender)
         self.model = self.fitted.operators.model
         self.evaluator = self.fitted.operators.evaluator
@@ -73,19 +71,14 @@ class _Results:
         return json.loads((self._files / folder / "result.json").read_text())
 
     def first(self) -> Mapping[str, Any]:
-        """The person in the fit's picture, or in the scan's first one."""
-        result = self.of(self._job)
-        return result["views"][0] if self._job == "scan" else result
-
-    def derived(self, name: str) -> Mapping[str, Any]:
-        return self.of(f"scan_{name}" if self._job == "scan" else name)
+        """The person in the first picture."""
+        return self.of("fit")["views"][0]
 
     def before_shading(self) -> Sequence[Mapping[str, Any]]:
         """The body in each picture as silhouette and edges left it."""
-        stages = self.of(self._job)["stages"]
+        stages = self.of("fit")["stages"]
         stage = next(each for each in stages if each["name"] == "SE")
-        bodies = stage["views"] if self._job == "scan" else [stage]
-        return [each["body"] for each in bodies]
+        return [each["body"] for each in stage["views"]]
 
     def shown(self, *frames: Vertices, **more: Any) -> Shown:
         counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
@@ -102,11 +95,11 @@ class _Results:
         return self.shown(world.points(vertices), cameras=1, **more)
 
     def in_view(self, number: int) -> Shown:
-        view = self.of("scan")["views"][number]
+        view = self.of("fit")["views"][number]
         return self.posed(view["body"], view["image_camera"])
 
     def in_view_before_shading(self, number: int) -> Shown:
-        camera = self.of("scan")["views"][number]["image_camera"]
+        camera = self.of("fit")["views"][number]["image_camera"]
         return self.posed(self.before_shading()[number], camera)
 
     def textured(self, **more: Any) -> Shown:
@@ -135,7 +128,7 @@ class _Results:
         motion = motion_of_cycle(stride_of(rig), rig)
         body = grounded(moving_body(self.evaluator, shape, motion), self.model)
         last = len(body.shapes) - 1
-        stated_m = 1e-3 * self.derived("animation")[error]
+        stated_m = 1e-3 * self.of("animation")[error]
         frames = tuple(body.vertices(frame) for frame in (0, last // 2, last))
         return self.shown(*frames, tolerance_m=stated_m + ROUNDING_M, **more)
 
@@ -166,37 +159,25 @@ def _standing(vertices: Vertices) -> Vertices:
     return vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
 
 
-_OF_EITHER: Mapping[str, Callable[[_Results], Shown]] = {
+_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
+    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["shape"]),
+    "fit/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
+    "fit/views/0/body_posed.glb": lambda r: r.in_view(0),
+    "fit/views/1/body_posed.glb": lambda r: r.in_view(1),
+    "fit/views/0/body_posed_se.glb": lambda r: r.in_view_before_shading(0),
+    "fit/views/1/body_posed_se.glb": lambda r: r.in_view_before_shading(1),
     "texture/body_textured.glb": lambda r: r.textured(),
     "albedo_texture/body_textured.glb": lambda r: r.textured(),
     "pose/body_reposed.glb": lambda r: r.dressed(
-        r.upright(_parameters(r.derived("pose") | {"shape": r.first()["body"]["shape"]}))
+        r.upright(_parameters(r.of("pose") | {"shape": r.first()["body"]["shape"]}))
     ),
     "animation/body_animated.glb": lambda r: r.dressed(
-        r.animated(
-            error="morph_largest_error_mm", morph_targets=r.derived("animation")["morph_targets"]
-        )
+        r.animated(error="morph_largest_error_mm", morph_targets=r.of("animation")["morph_targets"])
     ),
     "animation/body_skinned.glb": lambda r: r.dressed(
         r.animated(error="skin_largest_error_mm", bones=len(r.model.part_names))
     ),
     "caricature/body_caricature.glb": lambda r: r.turned_upright(
-        _parameters(r.first()["body"] | {"shape": r.derived("caricature")["shape"]})
+        _parameters(r.first()["body"] | {"shape": r.of("caricature")["shape"]})
     ),
-}
-"""What is derived from fits and scans alike."""
-
-_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
-    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
-    "fit/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
-    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"]),
-    "fit/body_posed_se.glb": lambda r: r.posed(r.before_shading()[0]),
-    **_OF_EITHER,
-    **{f"scan_{name}": shown for name, shown in _OF_EITHER.items()},
-    "scan/body_canonical.glb": lambda r: r.canonical(r.of("scan")["shape"]),
-    "scan/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
-    "scan/body_posed_0.glb": lambda r: r.in_view(0),
-    "scan/body_posed_1.glb": lambda r: r.in_view(1),
-    "scan/body_posed_se_0.glb": lambda r: r.in_view_before_shading(0),
-    "scan/body_posed_se_1.glb": lambda r: r.in_view_before_shading(1),
 }

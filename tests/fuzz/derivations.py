@@ -38,7 +38,7 @@ SIZES = (
 )
 SUBPATHS = (
     *("", "/", "/events", "/request", "/result", "/cancel", "/retry"),
-    *("/artifacts/pose.png", "/artifacts/", "/artifacts/..%2f..", "/nothing"),
+    *("/files/pose.png", "/files/", "/files/..%2f..", "/nothing"),
 )
 
 

@@ -15,13 +15,6 @@ from tests.fuzz.derivations import (
 from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
-from tests.fuzz.scans import (
-    scan_address,
-    scan_body,
-    scan_derivation,
-    scan_form,
-    scanned_pictures,
-)
 
 DEEP = 5_000
 
@@ -36,20 +29,24 @@ POINTS = {
     "left_knee": [43, 70],
     "right_knee": [29, 70],
 }
-SUBJECT = {
+PERSON = {
     "gender": "female",
-    "points": POINTS,
     "height_m": 1.7,
     "weight_kg": 61.0,
     "measurements": {"waist_girth_navel": {"value": 80, "standard_error": 1}},
+}
+SEEN = {
+    "points": POINTS,
     "focal_length_px": 90.0,
     "limb_facing": {"left_shin": "toward"},
     "format": "named",
 }
-FIT = SUBJECT | {"cues": "SE", "optimizer": "gauss_newton", "light": {"kind": "point"}}
+VIEW = SEEN | {"light": {"kind": "point"}, "clothing": {"upper": "loose"}}
+SEEN_FROM = ("front", "side")
+FIT = PERSON | {"cues": "SE", "optimizer": "gauss_newton", "views": [VIEW]}
 DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
-    ("/v1/initial-poses", SUBJECT | {"image_size": {"width": 72, "height": 96}}),
+    ("/v1/initial-poses", PERSON | SEEN | {"image_size": {"width": 72, "height": 96}}),
     ("/v1/points", {"image_id": "0" * 64, "person": 0, "mask": True}),
     (
         "/v1/checks",
@@ -62,7 +59,12 @@ DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
             "focal_length_px": 90.0,
         },
     ),
-    ("/v1/fits", FIT | {"image_id": "0" * 64, "mask_id": "1" * 64}),
+    ("/v1/fits", FIT | {"views": [VIEW | {"image_id": "0" * 64, "mask_id": "1" * 64}]}),
+    (
+        "/v1/fits",
+        FIT
+        | {"views": [VIEW | {"view": each, "image_id": "0" * 64} for each in ("front", "side")]},
+    ),
 )
 HEADERS = (
     "Accept",
@@ -111,7 +113,7 @@ PATHS = (
     f"/v1/fits/{UNKNOWN_ID}",
     f"/v1/fits/{UNKNOWN_ID}/events",
     f"/v1/fits/{UNKNOWN_ID}/result",
-    f"/v1/fits/{UNKNOWN_ID}/artifacts/overlay.png",
+    f"/v1/fits/{UNKNOWN_ID}/files/views/0/overlay.png",
     f"/v1/images/{'0' * 64}",
 )
 QUERIES = ("limit", "cursor", "state", "wait", "")
@@ -218,11 +220,6 @@ KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "derivation, JSON": (derivation_body, 0.05),
     "derivation, form": (derivation_form, 0.07),
     "derivation, path": (derivation_address, 0.03),
-    "scan, pictures": (scanned_pictures, 0.05),
-    "scan, form": (scan_form, 0.05),
-    "scan, JSON": (scan_body, 0.03),
-    "scan, path": (scan_address, 0.03),
-    "scan, derived": (scan_derivation, 0.04),
 }
 """Makers of requests, and how often each is taken, in proportion."""
 

@@ -17,7 +17,6 @@ from tests.deployment import Deployment, Kind, wait_for
 from tests.fuzz.derivations import DERIVATION_ID, FIT_ID, OTHER_FIT_ID, with_ids
 from tests.fuzz.messages import RawRequest
 from tests.fuzz.requests import KINDS
-from tests.fuzz.scans import SCAN_DERIVATION_ID, SCAN_ID, sound_scan
 from tests.fuzz.sending import Answer, send
 from tests.process_table import own_memory_mib
 from tests.submissions import small_submissions
@@ -30,7 +29,7 @@ READY_WITHIN_S = 900.0
 ENDED_WITHIN_S = 1_200.0
 MOST_FAULTS = 20
 
-_KIND = {"jobs": "fit", "scans": "scan", "derivations": "derivation"}
+_KIND = {"fits": "fit", "derivations": "derivation"}
 """What a list of this name holds, where its entries have no kind."""
 
 FAULTY_ENDS = (": fit-failed", ": fit-crashed", ": out-of-memory", "timed_out")
@@ -88,13 +87,11 @@ def fuzz(
         before = {each.pid for each in deployment.processes() if each not in fits}
         _send_all(deployment, harvest, ids, inputs, lambda number: made(number, seed, kinds))
         lists = [
-            ("/v1/fits", "jobs"),
-            ("/v1/scans", "scans"),
+            ("/v1/fits", "fits"),
             *(
                 (f"/v1/fits/{ids[fit]}/derivations", "derivations")
                 for fit in (FIT_ID, OTHER_FIT_ID)
             ),
-            (f"/v1/scans/{ids[SCAN_ID]}/derivations", "derivations"),
         ]
         ended = wait_for(
             lambda: all(_none_waits(client, *each) for each in lists), within_s=ENDED_WITHIN_S
@@ -105,9 +102,6 @@ def fuzz(
             _account_for_jobs(client, harvest, *each)
         _erase_whole(
             client, harvest, f"/v1/fits/{ids[FIT_ID]}", f"derivations/{ids[DERIVATION_ID]}"
-        )
-        _erase_whole(
-            client, harvest, f"/v1/scans/{ids[SCAN_ID]}", f"derivations/{ids[SCAN_DERIVATION_ID]}"
         )
         wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=READY_WITHIN_S)
         harvest.fits_left = len(deployment.of_kind(Kind.FIT))
@@ -125,7 +119,7 @@ def made(number: int, seed: int, kinds: Sequence[str] = tuple(KINDS)) -> tuple[s
 
 
 def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
-    """Fit two pictures of a person and scan two, and pose a fit and the scan.
+    """Fit a picture of a person twice, and pose a fit.
 
     Returns their ids by those that stand for them.
     """
@@ -135,18 +129,10 @@ def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
     files = replace(picture, request=shaded).files
     fits = [_succeeded(client, client.post("/v1/fits", files=files)) for _ in "12"]
     pose = client.post(f"/v1/fits/{fits[0]}/derivations", json={"kind": "pose"})
-    images, asked = sound_scan()
-    parts = {name: (name, content, "image/jpeg") for name, content in images.items()}
-    scan = _succeeded(
-        client, client.post("/v1/scans", files=parts, data={"request": json.dumps(asked)})
-    )
-    posed = client.post(f"/v1/scans/{scan}/derivations", json={"kind": "pose"})
     return {
         FIT_ID: fits[0],
         OTHER_FIT_ID: fits[1],
         DERIVATION_ID: _succeeded(client, pose),
-        SCAN_ID: scan,
-        SCAN_DERIVATION_ID: _succeeded(client, posed),
     }
 
 

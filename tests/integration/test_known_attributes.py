@@ -9,9 +9,9 @@ from fitter.result import FitResult, FitStage
 from fitter.vocabulary.choices import Cues
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
-from service.submissions.submission import check_fit
 from service.worker.translate import fit_request
 from tests.one_picture import changed
+from tests.submissions import checked
 
 SAMPLE = load_sample()
 MOST_PIXELS = 50_000_000
@@ -19,11 +19,9 @@ MOST_PIXELS = 50_000_000
 
 def sample_request(**known: float | tuple[float, float]) -> FitRequest:
     """The sample with some of the true measurements, of silhouette and edges for speed."""
-    checked = check_fit(
-        request=SAMPLE.request, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS
-    )
+    asked = checked(SAMPLE.request, SAMPLE.image)
     pictures = (SentPicture(image=SAMPLE.image, mask=None),)
-    request = fit_request(checked.options, pictures, max_pixels=MOST_PIXELS)
+    request = fit_request(asked, pictures, max_pixels=MOST_PIXELS)
     return changed(
         request,
         cues=Cues.SE,

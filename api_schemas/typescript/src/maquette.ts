@@ -1,16 +1,13 @@
-// Maquette's HTTP API for browsers and Node: `fit` or `scan` pictures, `waitFor` the job, take its `result` and files.
+// Maquette's HTTP API for browsers and Node: `fit` pictures, `waitFor` the end, take `result` and files.
 // All types are those of openapi.json.
 import type { components } from "./schema.js";
 
 export type Schemas = components["schemas"];
+export type Fit = Schemas["Fit"];
 export type FitRequest = Schemas["FitRequest"];
 export type FitResult = Schemas["FitResult"];
-export type Job = Schemas["Job"];
 export type Measurement = Schemas["Measurement"];
 export type Problem = Schemas["Problem"];
-export type Scan = Schemas["Scan"];
-export type ScanRequest = Schemas["ScanRequest"];
-export type ScanResult = Schemas["ScanResult"];
 
 export interface Options {
   /** Where the service is, `https://measure.example.org`; in a browser the page's own origin if it is left out. */
@@ -21,26 +18,21 @@ export interface Options {
 }
 
 export interface Sending {
-  /** White on the person: in place of the segmentation. */
-  readonly mask?: Blob;
-  /** How long the answer may wait for the job's end, in seconds: 30 if it is left out, at most 60. */
+  /** None, or one for each picture, white on the person: in place of the segmentation. */
+  readonly masks?: readonly Blob[];
+  /** How long the answer may wait for the fit's end, in seconds: 30 if it is left out, at most 60. */
   readonly wait?: number;
-  /** The same key with the same content gives the same job, however often it is sent. */
+  /** The same key with the same content gives the same fit, however often it is sent. */
   readonly idempotencyKey?: string;
   readonly signal?: AbortSignal;
 }
 
-export interface SendingScan extends Omit<Sending, "mask"> {
-  /** By the pictures' places. */
-  readonly masks?: readonly (Blob | undefined)[];
-}
-
-export interface Waiting<J> {
-  readonly onProgress?: (job: J) => void;
+export interface Waiting {
+  readonly onProgress?: (fit: Fit) => void;
   readonly signal?: AbortSignal;
 }
 
-/** The service refused a call, or a job has no result. `problem` says which field, why, and what to do. */
+/** The service refused a call, or a fit has no result. `problem` says which field, why, and what to do. */
 export class MaquetteError extends Error {
   override readonly name = "MaquetteError";
   readonly status: number;
@@ -68,56 +60,43 @@ export class Maquette {
     this.#fetch = options.fetch ?? globalThis.fetch.bind(globalThis);
   }
 
-  /** Send one picture. The job may have ended already: `waitFor` it. */
-  fit(picture: Blob, request: FitRequest, sending: Sending = {}): Promise<Job> {
-    return this.#send("/v1/fits", { image: picture, mask: sending.mask }, request, sending);
+  /** Send one to six pictures, in the order of the request's `views`. The fit may have ended already: `waitFor` it. */
+  async fit(request: FitRequest, pictures: readonly Blob[], sending: Sending = {}): Promise<Fit> {
+    const form = new FormData();
+    form.append("request", new Blob([JSON.stringify(request)], { type: "application/json" }), "request.json");
+    for (const picture of pictures) form.append("image", picture, "image");
+    for (const mask of sending.masks ?? []) form.append("mask", mask, "mask");
+    const headers: Record<string, string> = { Prefer: `wait=${sending.wait ?? DEFAULT_WAIT_S}` };
+    if (sending.idempotencyKey !== undefined) headers["Idempotency-Key"] = sending.idempotencyKey;
+    return json(await this.#call("/v1/fits", { method: "POST", body: form, headers, ...(sending.signal && { signal: sending.signal }) }));
   }
 
-  /** Send two to six pictures of one person, in the order of the request's `views`. */
-  scan(pictures: readonly Blob[], request: ScanRequest, sending: SendingScan = {}): Promise<Scan> {
-    const parts: Record<string, Blob | undefined> = {};
-    pictures.forEach((picture, number) => (parts[`image_${number}`] = picture));
-    sending.masks?.forEach((mask, number) => (parts[`mask_${number}`] = mask));
-    return this.#send("/v1/scans", parts, request, sending);
-  }
-
-  /** Resolves once the job has succeeded; rejects with a `MaquetteError` if it ended otherwise. */
-  async waitFor<J extends Job | Scan>(job: J, { onProgress, signal }: Waiting<J> = {}): Promise<J> {
-    let seen = job;
+  /** Resolves once the fit has succeeded; rejects with a `MaquetteError` if it ended otherwise. */
+  async waitFor(fit: Fit, { onProgress, signal }: Waiting = {}): Promise<Fit> {
+    let seen = fit;
     for (;;) {
       onProgress?.(seen);
       if (seen.state === "succeeded") return seen;
-      if (seen.state !== "queued" && seen.state !== "running") throw failure(seen.problem, 409, `The job ended as ${seen.state}.`);
+      if (seen.state !== "queued" && seen.state !== "running") throw failure(seen.problem, 409, `The fit ended as ${seen.state}.`);
       await pause(POLL_MS, signal);
-      seen = await json<J>(await this.#call(seen.links.self, signal ? { signal } : {}));
+      seen = await json<Fit>(await this.#call(seen.links.self, signal ? { signal } : {}));
     }
   }
 
-  /** What a job that succeeded has found; `stages` is empty unless it is asked for. */
-  result(job: Job, asked?: { readonly stages?: boolean }): Promise<FitResult>;
-  result(scan: Scan, asked?: { readonly stages?: boolean }): Promise<ScanResult>;
-  async result(job: Job | Scan, asked: { readonly stages?: boolean } = {}): Promise<FitResult | ScanResult> {
+  /** What a fit that succeeded has found; `stages` is empty unless it is asked for. */
+  async result(fit: Fit, asked: { readonly stages?: boolean } = {}): Promise<FitResult> {
     const query = asked.stages ? "?include=stages" : "";
-    return json(await this.#call(`${job.links.self}/result${query}`, {}));
+    return json(await this.#call(`${fit.links.self}/result${query}`, {}));
   }
 
-  /** One of its files: `body_posed.glb`, `overlay.png`, or, made when asked for, `body_posed.obj`, `measurements.csv`. */
-  async artifact(job: Job | Scan, name: string): Promise<Blob> {
-    return (await this.#call(`${job.links.self}/artifacts/${encodeURIComponent(name)}`, {})).blob();
+  /** One of its files: `views/0/overlay.png`, or, made when asked for, `body_canonical.obj`, `measurements.csv`. */
+  async file(fit: Fit, name: string): Promise<Blob> {
+    return (await this.#call(`${fit.links.self}/files/${name}`, {})).blob();
   }
 
   /** Stop it if it runs, and erase its pictures and results. */
-  async erase(job: Job | Scan): Promise<void> {
-    await this.#call(job.links.self, { method: "DELETE" });
-  }
-
-  async #send<J>(path: string, parts: Readonly<Record<string, Blob | undefined>>, request: unknown, sending: Omit<Sending, "mask">): Promise<J> {
-    const form = new FormData();
-    form.append("request", new Blob([JSON.stringify(request)], { type: "application/json" }), "request.json");
-    for (const [name, part] of Object.entries(parts)) if (part) form.append(name, part, name);
-    const headers: Record<string, string> = { Prefer: `wait=${sending.wait ?? DEFAULT_WAIT_S}` };
-    if (sending.idempotencyKey !== undefined) headers["Idempotency-Key"] = sending.idempotencyKey;
-    return json(await this.#call(path, { method: "POST", body: form, headers, ...(sending.signal && { signal: sending.signal }) }));
+  async erase(fit: Fit): Promise<void> {
+    await this.#call(fit.links.self, { method: "DELETE" });
   }
 
   async #call(path: string, init: RequestInit): Promise<Response> {

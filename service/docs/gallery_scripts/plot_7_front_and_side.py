@@ -13,9 +13,9 @@ import matplotlib.pyplot as plt
 from _extensions.drawing import show
 
 from fitter import Click, FitRequest, Gender, Person, View, ViewKind, fit
-from service.demo_data.sample import load_scan_sample
+from service.demo_data.sample import load_views_sample
 
-sample = load_scan_sample()
+sample = load_views_sample()
 asked = json.loads(sample.request)
 show(*sample.images, titles=("front", "side"))
 

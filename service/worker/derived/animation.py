@@ -51,9 +51,9 @@ def derive(
             warnings=tuple(
                 FitWarning(code=each.code, message=each.message) for each in chosen.warnings
             ),
-            artifacts=(),
+            files=(),
         ),
-        artifacts=dict(made.files) | texture_files(texture),
+        files=dict(made.files) | texture_files(texture),
     )
 
 

@@ -31,7 +31,7 @@ def derive(
             bmi=bmi,
             bmi_standard_error=bmi_error,
             estimates=estimates,
-            artifacts=(),
+            files=(),
         ),
-        artifacts={"body_composition.csv": models_csv(estimates, BodyFatEstimate.model_fields)},
+        files={"body_composition.csv": models_csv(estimates, BodyFatEstimate.model_fields)},
     )

@@ -42,7 +42,7 @@ def derive(
         after=found.after,
         height_m=found.height_m,
         shape=tuple(found.shape.tolist()),
-        artifacts=(),
+        files=(),
     )
     picture = preview(
         [
@@ -55,7 +55,7 @@ def derive(
     )
     return DerivationOutput(
         result=result,
-        artifacts={
+        files={
             "body_caricature.glb": plain_glb(
                 exaggerated,
                 model,

@@ -14,7 +14,7 @@ from fitter.errors import InvalidInputError
 from fitter.export.body_texture import BodyTexture
 from fitter.observation.decoding import decode_coverage, decode_picture
 from fitter.person.fitted_person import FittedPerson
-from service.jobs.inputs import IMAGE, SEGMENTATION
+from service.jobs.inputs import IMAGE, SEGMENTATION, of_view
 
 HALF: Final = 128
 """Level at which the segmentation says that a pixel shows the person."""
@@ -24,6 +24,9 @@ SIZE: Final = 1_024
 
 JPEG_QUALITY: Final = 92
 """0.2 MB where PNG has 1.3: beside 1 MB of mesh the texture of a moving body may be a copy."""
+
+_IMAGE: Final = of_view(0, IMAGE)
+_SEGMENTATION: Final = of_view(0, SEGMENTATION)
 
 
 def picture_on(
@@ -49,14 +52,14 @@ def picture_on(
             reason="The fit found no light that could be divided out of the picture.",
             remedy="Fit with cues SES, or ask for the colours of the picture.",
         )
-    picture = decode_picture(inputs[IMAGE], field="image", max_pixels=max_pixels)
+    picture = decode_picture(inputs[_IMAGE], field="views.0.image", max_pixels=max_pixels)
     linear_rgb = linear_picture(picture.pixels)
     made = albedo_texture if without_light else picture_texture
     return made(
         person,
         evaluator,
         linear_rgb,
-        mask=_person_in(inputs[SEGMENTATION], linear_rgb.shape[:2], max_pixels=max_pixels),
+        mask=_person_in(inputs[_SEGMENTATION], linear_rgb.shape[:2], max_pixels=max_pixels),
         size=size,
     )
 
@@ -76,7 +79,7 @@ def texture_for(
     InvalidInputError
         If albedo is asked for and the fit found no light.
     """
-    if colours is BodyColours.PLAIN or not {IMAGE, SEGMENTATION} <= inputs.keys():
+    if colours is BodyColours.PLAIN or not {IMAGE, SEGMENTATION, of_view} <= inputs.keys():
         return None
     without_light = colours is BodyColours.ALBEDO
     try:

@@ -75,9 +75,9 @@ def derive(
         result=PoseResult(
             pose=body_result(body, model.part_names).pose,
             colours=BodyColours.PLAIN if texture is None else options.colours,
-            artifacts=(),
+            files=(),
         ),
-        artifacts={
+        files={
             "body_reposed.glb": reposed_glb(vertices, model, person, options.pose, texture),
             "pose.png": png(preview(views, model.triangles)),
         }

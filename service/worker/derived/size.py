@@ -46,9 +46,9 @@ def derive(
                 FitWarning(code=each.code, message=each.message)
                 for each in charts.chart_remarks(chart, measured.of(chart.names).units)
             ),
-            artifacts=(),
+            files=(),
         ),
-        artifacts={"sizes.csv": models_csv(sizes, SizeChance.model_fields)},
+        files={"sizes.csv": models_csv(sizes, SizeChance.model_fields)},
     )
 
 

@@ -34,7 +34,7 @@ def derive(
     texture = png(levels)
     return DerivationOutput(
         result=result,
-        artifacts={
+        files={
             "body_textured.glb": textured_glb(
                 in_file_axes(evaluator.vertices(person.body)),
                 model,
@@ -77,7 +77,7 @@ def _pictured(
         seen_share=texture.seen_share,
         mirrored_share=texture.mirrored_share,
         scale=texture.scale,
-        artifacts=(),
+        files=(),
     )
     return result, texture.levels, texture.coverage
 
@@ -94,6 +94,6 @@ def _painted(
         seen_share=0.0,
         mirrored_share=0.0,
         scale=1.0,
-        artifacts=(),
+        files=(),
     )
     return result, levels, None

@@ -55,7 +55,7 @@ def test_a_picture_from_another_side_is_told_where_it_lies(browser: Browser, ser
         page = visitor.page
         page.get_by_role("link", name="Measure", exact=True).tap()
         chosen = place(page, "side").locator("input[type=file]")
-        chosen.set_input_files(DATA / "scan_front.jpg")
+        chosen.set_input_files(DATA / "front.jpg")
         expect(place(page, "side").locator('[data-code="other-view"]')).to_be_visible()
-        chosen.set_input_files(DATA / "scan_side.jpg")
+        chosen.set_input_files(DATA / "side.jpg")
         expect(place(page, "side")).to_contain_text("Good to measure")

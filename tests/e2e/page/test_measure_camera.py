@@ -20,7 +20,7 @@ CAMERA_IS_OFF = "() => document.querySelector('video') === null"
 def filming(playwright: Playwright, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     """A browser before whose camera somebody stands, seen from the side."""
     film = tmp_path_factory.mktemp("film") / "side.mjpeg"
-    write_film(film, DATA / "scan_side.jpg")
+    write_film(film, DATA / "side.jpg")
     with chromium(playwright, *camera_flags(film), programs=WHOLE) as running:
         yield running
 
@@ -122,7 +122,7 @@ def test_a_refused_camera_says_so_and_offers_the_file_picker(
         expect(camera.get_by_role("button", name="Take it in 5 s")).to_be_disabled()
         with page.expect_file_chooser() as chooser:
             camera.get_by_text("Choose a file", exact=True).tap()
-        chooser.value.set_files(DATA / "scan_front.jpg")
+        chooser.value.set_files(DATA / "front.jpg")
         expect(camera).to_be_hidden()
         expect(place(page, "front")).to_contain_text("Good to measure")
 

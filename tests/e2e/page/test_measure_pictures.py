@@ -16,7 +16,7 @@ from tests.e2e.service import ended_job
 __all__ = ("axe",)
 
 DATA = Path(sample.__file__).parent
-FRONT = (DATA / "scan_front.jpg").read_bytes()
+FRONT = (DATA / "front.jpg").read_bytes()
 
 
 def jpeg(picture: Image.Image) -> bytes:
@@ -103,7 +103,7 @@ def test_a_picture_that_cannot_be_measured_is_asked_for_again(visitor: Visitor):
     choose(page, "side", tiny())
     expect(place(page, "side").get_by_role("alert")).to_contain_text("20 × 27 pixels")
     expect(page.get_by_role("button", name="Add the side picture")).to_be_disabled()
-    choose(page, "side", (DATA / "scan_side.jpg").read_bytes())
+    choose(page, "side", (DATA / "side.jpg").read_bytes())
     expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
 
 

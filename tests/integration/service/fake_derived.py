@@ -3,8 +3,6 @@
 import json
 from pathlib import Path
 
-from pydantic import TypeAdapter
-
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
 from api_schemas.derivation_kinds.base import DerivedFiles
@@ -13,22 +11,19 @@ from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions,
 from api_schemas.derivations import DerivationResult
 from api_schemas.problems import FieldProblem
 from api_schemas.results import FitResult
-from api_schemas.scans import ScanResult
 from service.api.openapi import recorded_examples
 from service.jobs.inputs import (
     CLIP,
     IMAGE,
     RESULT,
     TEXTURE,
+    of_view,
 )
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
     UnusableInputError,
 )
-
-RESULTS: TypeAdapter[FitResult | ScanResult] = TypeAdapter(FitResult | ScanResult)
-"""What derivations may be made of."""
 
 LARGEST_FACTOR = 6.0
 """Of a caricature."""
@@ -61,20 +56,20 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
             after=1.5 * options.factor,
             height_m=1.8,
             shape=(0.0, 1.5 * options.factor),
-            artifacts=(),
+            files=(),
         )
         files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
     elif isinstance(options, TextureOptions):
         # Who brings the colours has no copy of the picture.
         own = options.colours is TextureColours.OWN
-        assert own is (TEXTURE in job.inputs) is (IMAGE not in job.inputs)
+        assert own is (TEXTURE in job.inputs) is (of_view(0, IMAGE) not in job.inputs)
         result = TextureResult(
             colours=options.colours,
             size=len(job.inputs[TEXTURE]) if own else options.size,
             seen_share=0.4,
             mirrored_share=0.1,
             scale=1.0,
-            artifacts=(),
+            files=(),
         )
         files = {"body_textured.glb": b"glTF", "texture.png": b"PNG", "coverage.png": b"PNG"}
     elif isinstance(options, AnimationOptions):
@@ -90,14 +85,14 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
             sliding_mm=0.0,
             travelled_m=0.0,
             warnings=(),
-            artifacts=(),
+            files=(),
         )
         files = {"body_animated.glb": b"glTF", "animation.webp": b"RIFF"}
     else:
         # Of any other kind what the OpenAPI document shows of it.
         if RESULT in job.inputs:
-            RESULTS.validate_json(job.inputs[RESULT])
+            FitResult.model_validate_json(job.inputs[RESULT])
         shown = recorded_examples()["answers"]["get_fit_derivation_result"]["200"][options.kind]
         result = DerivationResult.model_validate_json(json.dumps(shown)).root
-        files = {each.name: FILES[Path(each.name).suffix] for each in result.artifacts}
-    return DerivationOutput(result=result, artifacts=files)
+        files = {each.name: FILES[Path(each.name).suffix] for each in result.files}
+    return DerivationOutput(result=result, files=files)

@@ -18,7 +18,6 @@ from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
-from api_schemas.scans import ScanOptions
 from fitter.vocabulary.choices import Gender
 from service.engine.port import Report
 from service.jobs.inputs import PERSON, SentPicture
@@ -31,7 +30,7 @@ from service.worker.pipeline_port import (
 )
 from service.worker.tasks import job_tasks
 from tests.integration.service.fake_derived import derived_output
-from tests.integration.service.fake_results import fit_result, scan_files, scan_result
+from tests.integration.service.fake_results import fit_result, result_files
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
@@ -55,24 +54,18 @@ def scripted_image(
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    if isinstance(job.options, ScanOptions):
-        return _scan(job, job.options, observe)
-    (picture,) = job.pictures
-    script = _script(picture)
-    _begin(script)
-    for step, stage in enumerate(STAGES):
-        observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
-        _work(script.get("seconds", 0.0) / len(STAGES), burn=script.get("burn", False))
-    if script.get("unusable"):
-        raise UnusableInputError(
-            FieldProblem(
-                field="image",
-                code="image-truncated",
-                reason="The picture ends too early.",
-                remedy="Send the whole file.",
-            )
-        )
-    if job.options.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
+    """Do what each picture says, one after the other, and what the first says in the end."""
+    scripts = [_script(each) for each in job.pictures]
+    _begin(scripts[0])
+    if len(scripts) == 1:
+        _run_one(scripts[0], observe)
+    else:
+        for view, script in enumerate(scripts):
+            observe(Report(stage=STAGES[0], progress=0.5 * view / len(scripts), view=view))
+            _check(script, view)
+            _go_on(script)
+        observe(Report(stage="shading", progress=0.5))
+    if job.request.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
         raise UnusableInputError(
             FieldProblem(
                 field="weight_kg",
@@ -81,39 +74,29 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
                 remedy="Leave out the least certain.",
             )
         )
-    _go_on(script | {"seconds": 0.0})
+    _go_on(scripts[0] | {"seconds": 0.0})
     return PipelineOutput(
-        result=fit_result(job.options),
-        artifacts={
-            "body_posed.glb": b"glTF" + bytes(range(256)),
-            "overlay.png": picture.image,
-        }
-        | ({} if script.get("old") else {"person.npz": picture.image}),
+        result=fit_result(job.request), files=result_files([each.image for each in job.pictures])
     )
 
 
-def _scan(
-    job: PipelineInput, options: ScanOptions, observe: Callable[[Report], None]
-) -> PipelineOutput:
-    """Do what each picture says, one after the other, and what the first says in the end."""
-    scripts = [_script(each) for each in job.pictures]
-    _begin(scripts[0])
-    for view, script in enumerate(scripts):
-        observe(Report(stage=STAGES[0], progress=0.5 * view / len(scripts), view=view))
-        if script.get("unusable"):
-            raise UnusableInputError(
-                FieldProblem(
-                    field=f"views.{view}.image",
-                    code="image-truncated",
-                    reason="The picture ends too early.",
-                    remedy="Send the whole file.",
-                )
+def _run_one(script: dict[str, Any], observe: Callable[[Report], None]) -> None:
+    for step, stage in enumerate(STAGES):
+        observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
+        _work(script.get("seconds", 0.0) / len(STAGES), burn=script.get("burn", False))
+    _check(script, 0)
+
+
+def _check(script: dict[str, Any], view: int) -> None:
+    if script.get("unusable"):
+        raise UnusableInputError(
+            FieldProblem(
+                field=f"views.{view}.image",
+                code="image-truncated",
+                reason="The picture ends too early.",
+                remedy="Send the whole file.",
             )
-        _go_on(script)
-    observe(Report(stage="shading", progress=0.5))
-    return PipelineOutput(
-        result=scan_result(options), artifacts=scan_files([each.image for each in job.pictures])
-    )
+        )
 
 
 def _script(picture: SentPicture[bytes]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,19 @@ POINTS = {
     "left_knee": [362.0, 350.0],
     "right_knee": [278.0, 350.0],
 }
-REQUEST: dict[str, object] = {"gender": "male", "height_m": 1.8, "points": POINTS}
+VIEW: Mapping[str, Any] = {"points": POINTS}
+REQUEST: dict[str, Any] = {"gender": "male", "height_m": 1.8, "views": [VIEW]}
+FRONT_AND_SIDE: dict[str, Any] = {
+    "gender": "male",
+    "height_m": 1.8,
+    "views": [{"view": "front", **VIEW}, {"view": "side", **VIEW}],
+}
+
+
+def said_of_view(**said: object) -> dict[str, Any]:
+    """The field of a request that says this of its only picture, beside its points."""
+    return {"views": [{**VIEW, **said}]}
+
 
 QUICK: Mapping[str, object] = {
     "heartbeat_s": 0.2,
@@ -168,11 +180,40 @@ class Service:
             headers=headers or {},
         )
 
+    def post_several(
+        self,
+        *scripts: dict[str, object],
+        request: Mapping[str, Any] = FRONT_AND_SIDE,
+        images: Sequence[bytes] | None = None,
+        masks: Sequence[bytes] = (),
+        **headers: str,
+    ) -> httpx.Response:
+        """Post pictures that do what these scripts say, or two that say nothing."""
+        if images is None:
+            images = [scripted_image(script) for script in scripts or ({}, {"n": 1})]
+        files = [("image", ("picture.png", image, "image/png")) for image in images]
+        files += [("mask", ("mask.png", mask, "image/png")) for mask in masks]
+        return self.client.post(
+            "/v1/fits", files=files, data={"request": json.dumps(request)}, headers=headers
+        )
+
+    def submit_several(self, *scripts: dict[str, object], **options: Any) -> str:
+        """Post so, and return the fit's path."""
+        response = self.post_several(*scripts, **options)
+        assert response.status_code == 202, response.text
+        return response.headers["Location"]
+
     def submit(self, script: dict[str, object] | None = None) -> str:
         """Post and return the job's path."""
         response = self.post(script)
         assert response.status_code == 202, response.text
         return response.headers["Location"]
+
+    def fitted(self) -> str:
+        """Have a fit made, and return its path."""
+        path = self.submit()
+        assert self.ended(path)["state"] == "succeeded"
+        return path
 
     def job(self, path: str) -> dict[str, Any]:
         return self.client.get(path).raise_for_status().json()

@@ -84,7 +84,7 @@ def contents(service: Service, paths: list[str]) -> Mapping[str, bytes]:
     for path in paths:
         links = [path, f"{path}/request", f"{path}/image", f"{path}/result"]
         result = service.client.get(f"{path}/result").raise_for_status().json()
-        links += [f"{path}/artifacts/{each['name']}" for each in result["artifacts"]]
+        links += [f"{path}/files/{each['name']}" for each in result["files"]]
         for link in links:
             found[link] = service.client.get(link).raise_for_status().content
     return found
@@ -132,5 +132,5 @@ def test_a_copied_data_folder_brings_back_fits_though_the_service_runs_on(tmp_pa
     run_commands("restore-folder", restored.parent)
     with running_service(Machine(restored)) as service:
         assert contents(service, paths) == kept
-        assert len(service.client.get("/v1/fits").json()["jobs"]) == KEPT
+        assert len(service.client.get("/v1/fits").json()["fits"]) == KEPT
         assert service.ended(service.submit())["state"] == "succeeded"

@@ -9,14 +9,21 @@ from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem
 from tests.fuzz.requests import RawRequest
 from tests.fuzz.sending import send
 from tests.integration.service.fake_pipeline import scripted_image
-from tests.integration.service.harness import POINTS, REQUEST, Machine, Service, running_service
+from tests.integration.service.harness import (
+    POINTS,
+    REQUEST,
+    Machine,
+    Service,
+    running_service,
+    said_of_view,
+)
 
 UNKNOWN = "/v1/fits/00000000-0000-0000-0000-000000000000"
 
 
 def kept(service: Service) -> list[str]:
     """The ids of the newest fits there are."""
-    return [job["id"] for job in service.client.get("/v1/fits").raise_for_status().json()["jobs"]]
+    return [job["id"] for job in service.client.get("/v1/fits").raise_for_status().json()["fits"]]
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +71,7 @@ def post(service: Service, *, image: bytes | None = None, **parts: bytes) -> htt
 )
 def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code):
     problem = checked(post(service, image=image), status)
-    assert problem.field == "image"
+    assert problem.field == "views.0.image"
     assert problem.code == code
 
 
@@ -77,11 +84,25 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
         ({"measurements": {"stature": 180}}, "height_m", "two-heights"),
         ({"measurements": {"inseam": 0}}, "measurements.inseam", "out-of-range"),
         ({"gender": "other"}, "gender", "unknown-value"),
-        ({"points": POINTS | {"nose": [700, 10]}}, "points.nose", "point-outside-image"),
-        ({"points": {"nose": [1, 1]}}, "points", "too-few-points"),
-        ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose.0", "not-finite"),
+        (
+            said_of_view(points=POINTS | {"nose": [700, 10]}),
+            "views.0.points.nose",
+            "point-outside-image",
+        ),
+        (said_of_view(points={"nose": [1, 1]}), "views.0.points", "too-few-points"),
+        (
+            said_of_view(points=POINTS | {"nose": [float("nan"), 1]}),
+            "views.0.points.nose.0",
+            "not-finite",
+        ),
         ({"colour": "red"}, "colour", "unknown-field"),
-        ({"light": {"kind": "sky"}}, "light.kind", "unknown-value"),
+        ({"points": POINTS}, "points", "unknown-field"),
+        (said_of_view(light={"kind": "sky"}), "views.0.light.kind", "unknown-value"),
+        (said_of_view(image_id="0" * 64), "views.0.image_id", "one-picture-needed"),
+        ({"views": []}, "views", "wrong-length"),
+        ({"views": [{}] * 7}, "views", "wrong-length"),
+        ({"views": [{"view": "front"}, {}]}, "views.1.view", "missing"),
+        ({"views": [{"view": "front"}, {"view": "side"}]}, "views", "views-count"),
         ({"energies": ["edges"]}, "energies", "unknown-field"),
         ({"paper": {"energies": ["edges", "clicks"]}}, "paper.energies.1", "unknown-value"),
         ({"paper": {"energies": []}}, "paper.energies", "wrong-length"),
@@ -96,21 +117,35 @@ def test_a_bad_option_is_refused_at_once(service: Service, changes, field, code)
 
 def test_a_mask_of_another_size_is_refused_at_once(service: Service):
     problem = checked(post(service, mask=scripted_image(width=10)), 422)
-    assert problem.field == "mask"
+    assert problem.field == "views.0.mask"
     assert problem.code == "mask-size-mismatch"
+
+
+def test_each_fault_of_several_pictures_names_the_picture(service: Service):
+    images = [scripted_image(), b"text"]
+    problem = checked(service.post_several(images=images), 415)
+    assert (problem.field, problem.code) == ("views.1.image", "not-an-image")
+    masks = [scripted_image(), scripted_image(width=10)]
+    problem = checked(service.post_several(masks=masks), 422)
+    assert (problem.field, problem.code) == ("views.1.mask", "mask-size-mismatch")
+
+
+def test_masks_are_none_or_as_many_as_pictures(service: Service):
+    problem = checked(service.post_several(masks=[scripted_image()]), 422)
+    assert (problem.field, problem.code) == ("mask", "views-count")
 
 
 def test_missing_unknown_and_doubled_parts_are_named(service: Service):
     picture = ("p.png", scripted_image(), "image/png")
-    response = service.client.post(
-        "/v1/fits", files=[("image", picture), ("image", picture), ("photo", picture)]
-    )
+    response = service.client.post("/v1/fits", files=[("image", picture), ("photo", picture)])
     problem = checked(response, 422)
     assert {(error.field, error.code) for error in problem.errors} == {
         ("request", "missing"),
         ("photo", "unknown-field"),
-        ("image", "repeated-field"),
     }
+    request = ("r.json", json.dumps(REQUEST), "application/json")
+    twice = [("image", picture), ("request", request), ("request", request)]
+    assert checked(service.client.post("/v1/fits", files=twice), 422).code == "repeated-field"
 
 
 def test_a_request_part_that_is_not_json_is_malformed(service: Service):
@@ -174,7 +209,7 @@ def test_nothing_bad_was_kept(service: Service, kept_before: list[str]):
         ("GET", UNKNOWN, 404),
         ("GET", f"{UNKNOWN}/events", 404),
         ("GET", f"{UNKNOWN}/result", 404),
-        ("GET", f"{UNKNOWN}/artifacts/overlay.png", 404),
+        ("GET", f"{UNKNOWN}/files/views/0/overlay.png", 404),
         ("POST", f"{UNKNOWN}/cancel", 404),
         ("DELETE", UNKNOWN, 404),
         ("GET", "/problems/unheard-of", 404),

@@ -70,9 +70,9 @@ def interfered_with(read: str, act: Callable[[], Any], *, reading: int = 1) -> I
     thread.join()
 
 
-def accept(jobs: Any, name: str, *sources: str) -> SubmitOutcome:
+def accept(jobs: Any, name: str) -> SubmitOutcome:
     jobs.reserve(name, None)
-    new = NewJob(id=name, kind="fit", options=BLOB, inputs={}, sources=sources)
+    new = NewJob(id=name, kind="fit", options=BLOB, inputs={})
     return jobs.submit(new).outcome
 
 
@@ -81,19 +81,6 @@ def fitted(engine: JobEngine, database: sa.Engine, name: str, *, kept_s: float) 
     with database.begin() as connection:
         move_job(connection, name, state=JobState.RUNNING, values={"attempt": 1})
         end_job(connection, name, state=JobState.SUCCEEDED, retention_s=kept_s)
-
-
-def test_what_is_derived_never_outlives_a_fit_that_is_erased_while_it_is_accepted(
-    engine: JobEngine, database: sa.Engine
-):
-    jobs = engine.of("ours")
-    fitted(engine, database, "own", kept_s=100.0)
-    with interfered_with(f"SELECT {JOBS.c.expires_at}", lambda: jobs.erase("own")) as gone:
-        outcome = accept(jobs.derivations("own"), "pose")
-    assert outcome is SubmitOutcome.ACCEPTED
-    assert set(gone[0]) == {"own", "pose"}
-    with database.connect() as connection:
-        assert not list(connection.execute(sa.select(JOBS.c.id)).scalars())
 
 
 def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(

@@ -10,13 +10,13 @@ import pytest
 
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
-    REQUEST,
+    FRONT_AND_SIDE,
+    VIEW,
     Machine,
     Service,
     eventually,
     running_service,
 )
-from tests.integration.service.scanning import FRONT, SCAN, SIDE, of_either, post_scan
 from tests.integration.service.test_images import blobs_below
 
 RETENTION_HOURS = 2.0
@@ -24,7 +24,7 @@ SCRIPT = {"n": "the-picture-itself"}
 SECRET = "whsec_" + "eraseThisSecretAtTheEndX" * 2
 WEBHOOK = {"url": "http://127.0.0.1:9/erase-this-address", "secret": SECRET}
 PERSON = {"weight_kg": 83.7654321, "webhook": WEBHOOK}
-POINTS = {"points": {**REQUEST["points"], "nose": [321.1234567, 61.7654321]}}
+POINTS = {**VIEW["points"], "nose": [321.1234567, 61.7654321]}
 TRACES: dict[str, bytes] = {
     "picture": b"the-picture-itself",
     "picture's name": hashlib.sha256(scripted_image(SCRIPT)).hexdigest().encode(),
@@ -48,16 +48,15 @@ def traces(folder: Path) -> set[str]:
     return found
 
 
-def fitted(service: Service, resource: str) -> str:
-    """Have the remarkable picture fitted, or a scan of it twice made, and return the job's path."""
-    if resource == "fits":
-        answer = service.post(SCRIPT, request=REQUEST | PERSON | POINTS)
-    else:
-        views = [FRONT | POINTS, SIDE | POINTS]
-        masks = dict.fromkeys(range(2), scripted_image(SCRIPT))
-        answer = post_scan(
-            service, SCRIPT, SCRIPT, request=SCAN | PERSON | {"views": views}, masks=masks
-        )
+def fitted(service: Service) -> str:
+    """Have the remarkable picture fitted, seen twice, and return the fit's path."""
+    views = [{"view": view, "points": POINTS} for view in ("front", "side")]
+    answer = service.post_several(
+        SCRIPT,
+        SCRIPT,
+        request=FRONT_AND_SIDE | PERSON | {"views": views},
+        masks=[scripted_image(SCRIPT)] * 2,
+    )
     assert answer.status_code == 202, answer.text
     return answer.headers["Location"]
 
@@ -77,16 +76,10 @@ def erasing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         yield service
 
 
-@of_either
-def test_after_delete_no_byte_is_left(erasing: Service, resource: str):
+def test_after_delete_no_byte_is_left(erasing: Service):
     service, folder = erasing, erasing.machine.data_dir
-    path = fitted(service, resource)
+    path = fitted(service)
     assert service.ended(path)["state"] == "succeeded"
-    for kind in ("pose", "texture"):
-        asked = {"kind": kind, "webhook": WEBHOOK}
-        answer = service.client.post(f"{path}/derivations", json=asked)
-        derived = answer.headers["Location"]
-        assert service.ended(derived)["state"] == "succeeded"
     picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
     uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
     assert traces(folder) == set(TRACES)
@@ -94,13 +87,11 @@ def test_after_delete_no_byte_is_left(erasing: Service, resource: str):
     assert service.client.delete(uploaded).status_code == 204
     eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
     eventually(lambda: not blobs_below(folder), what="no file is left")
-    assert service.client.get(derived).status_code == 404
 
 
-@of_either
-def test_after_its_time_no_byte_is_left(erasing: Service, resource: str):
+def test_after_its_time_no_byte_is_left(erasing: Service):
     service, folder = erasing, erasing.machine.data_dir
-    path = fitted(service, resource)
+    path = fitted(service)
     job = service.ended(path)
     ended_at, expires_at = (
         datetime.fromisoformat(job[name]) for name in ("finished_at", "expires_at")
@@ -112,5 +103,3 @@ def test_after_its_time_no_byte_is_left(erasing: Service, resource: str):
     eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
     eventually(lambda: not blobs_below(folder), what="no file is left")
     assert service.client.get(path).status_code == 410
-    other = {"fits": "scans", "scans": "fits"}[resource]
-    assert service.client.get(path.replace(resource, other)).status_code == 404

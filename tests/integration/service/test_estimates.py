@@ -19,7 +19,8 @@ from tests.integration.service.harness import (
 from tests.integration.service.test_bad_input import checked
 
 SIZE = {"width": 640, "height": 480}
-POSE = REQUEST | {"image_size": SIZE}
+SUBJECT = {"gender": "male", "height_m": 1.8, "points": POINTS}
+POSE = SUBJECT | {"image_size": SIZE}
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -90,7 +91,7 @@ def test_an_uploaded_picture_gives_its_size_and_its_focal_length(service: Servic
     upload = service.client.post(
         "/v1/images", files={"image": ("p.png", scripted_image(width=800), "image/png")}
     )
-    request = REQUEST | {"image_id": upload.json()["id"]}
+    request = SUBJECT | {"image_id": upload.json()["id"]}
     pose = InitialPose.model_validate_json(
         service.client.post("/v1/initial-poses", json=request).content
     )

@@ -3,7 +3,6 @@
 import pytest
 
 from tests.integration.service.harness import Service, eventually
-from tests.integration.service.test_derivations import derived, fitted
 
 FAR = 10**40
 """No database holds such a number."""
@@ -16,11 +15,10 @@ def status_after(service: Service, path: str, event: object) -> int:
         return answer.status_code
 
 
-@pytest.fixture(scope="module", params=["fit", "derivation"])
-def ended(request: pytest.FixtureRequest, service: Service) -> str:
-    """The path of a job that has ended."""
-    fit = fitted(service)
-    path = fit if request.param == "fit" else derived(service, fit)
+@pytest.fixture(scope="module")
+def ended(service: Service) -> str:
+    """The path of a fit that has ended."""
+    path = service.submit()
     service.ended(path)
     return path
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import EventData, Job
+from api_schemas.jobs import EventData, Fit
 from api_schemas.results import FitResult
 from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import STAGES, scripted_image
@@ -20,10 +20,8 @@ from tests.integration.service.harness import (
     is_running,
     pids_noted,
     running_service,
+    said_of_view,
 )
-from tests.integration.service.scanning import of_either, posted, submitted
-
-PICTURE = {"fits": "image", "scans": "views/0/image"}
 
 
 def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service):
@@ -32,7 +30,7 @@ def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service
     assert response.status_code == 202
     path = response.headers["Location"]
     assert int(response.headers["Retry-After"]) > 0
-    assert Job.model_validate_json(response.content).links.self == path
+    assert Fit.model_validate_json(response.content).links.self == path
 
     job = service.ended(path)
     assert job["state"] == "succeeded"
@@ -43,10 +41,17 @@ def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service
     document = service.client.get(job["links"]["result"])
     result = FitResult.model_validate_json(document.content)
     assert result.height_m == REQUEST["height_m"]
-    names = {artifact.name for artifact in result.artifacts}
-    assert names == {"body_posed.glb", "overlay.png", "person.npz"}
-    for artifact in result.artifacts:
-        file = service.client.get(job["links"]["artifacts"][artifact.name])
+    names = {artifact.name for artifact in result.files}
+    assert names == {
+        "body.png",
+        "body_canonical.glb",
+        "person.npz",
+        "views/0/body_posed.glb",
+        "views/0/overlay.png",
+        "views/0/segmentation.png",
+    }
+    for artifact in result.files:
+        file = service.client.get(job["links"]["files"][artifact.name])
         assert file.headers["content-type"] == artifact.media_type
         assert len(file.content) == artifact.size
         assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
@@ -117,9 +122,8 @@ def test_two_listeners_hear_the_same(service: Service):
     assert heard[0] == heard[1]
 
 
-@of_either
-def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service, resource: str):
-    path = submitted(service, resource)
+def test_a_fit_is_not_sent_again_while_it_is_unchanged(service: Service):
+    path = service.submit()
     service.ended(path)
     tag = service.client.get(path).headers["ETag"]
     assert service.client.get(path, headers={"If-None-Match": tag}).status_code == 304
@@ -129,8 +133,9 @@ def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service, resourc
 def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(service: Service):
     path = service.submit()
     links = service.ended(path)["links"]
-    paths = [path, links["result"], links["image"], links["request"]]
-    for each in (*paths, links["artifacts"]["overlay.png"], "/v1/fits"):
+    image = links["files"]["views/0/image"]
+    paths = [path, links["result"], image, links["request"]]
+    for each in (*paths, links["files"]["views/0/overlay.png"], "/v1/fits"):
         assert service.client.get(each).headers["Cache-Control"] == "no-store", each
     assert service.client.delete(path).status_code == 204
     for each in paths:
@@ -139,7 +144,7 @@ def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(serv
 
 def test_artifacts_have_strong_tags_and_ranges(service: Service):
     path = service.submit()
-    url = service.ended(path)["links"]["artifacts"]["body_posed.glb"]
+    url = service.ended(path)["links"]["files"]["body_canonical.glb"]
     whole = service.client.get(url)
     assert whole.headers["ETag"] == f'"{hashlib.sha256(whole.content).hexdigest()}"'
     assert whole.headers["Cache-Control"] == "no-store"
@@ -159,7 +164,7 @@ def test_artifacts_have_strong_tags_and_ranges(service: Service):
 
 def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
     path = service.submit()
-    url = service.ended(path)["links"]["artifacts"]["body_posed.glb"]
+    url = service.ended(path)["links"]["files"]["body_canonical.glb"]
     whole = service.client.get(url)
     tag = whole.headers["ETag"]
     part = {"Range": "bytes=4-9"}
@@ -173,19 +178,18 @@ def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
             assert "Content-Range" not in answer.headers
 
 
-@of_either
-def test_jobs_are_listed_newest_first_in_pages(service: Service, resource: str):
-    paths = [submitted(service, resource) for _ in range(5)]
-    failed = submitted(service, resource, {"unusable": True})
+def test_jobs_are_listed_newest_first_in_pages(service: Service):
+    paths = [service.submit() for _ in range(5)]
+    failed = service.submit({"unusable": True})
     for path in (*paths, failed):
         service.ended(path)
-    pages = list(_pages(service, f"/v1/{resource}?limit=2"))
+    pages = list(_pages(service, "/v1/fits?limit=2"))
     assert {len(page) for page in pages[:-1]} == {2}
     listed = [job["links"]["self"] for page in pages for job in page]
     assert listed[:6] == [failed, *paths[::-1]]
     assert len(set(listed)) == len(listed)
     for state in ("failed", "succeeded"):
-        jobs = [job for page in _pages(service, f"/v1/{resource}?state={state}") for job in page]
+        jobs = [job for page in _pages(service, f"/v1/fits?state={state}") for job in page]
         assert {job["state"] for job in jobs} == {state}
         named = {job["links"]["self"] for job in jobs}
         assert named & {*paths, failed} == ({failed} if state == "failed" else {*paths})
@@ -195,7 +199,7 @@ def _pages(service: Service, following: str | None) -> Iterator[list[dict[str, A
     """The jobs of a list, page by page to its end."""
     while following:
         page = service.client.get(following)
-        yield page.json()["jobs" if "/fits" in following else "scans"]
+        yield page.json()["fits"]
         following = page.json()["next"]
         assert ("Link" in page.headers) == (following is not None)
 
@@ -213,10 +217,9 @@ def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: P
     assert service.client.get(f"{path}/result").status_code == 409
 
 
-@of_either
-def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service, resource: str):
+def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service):
     service = without_worker
-    path = submitted(service, resource)
+    path = service.submit()
     response = service.client.post(f"{path}/cancel")
     assert response.status_code == 200
     assert response.json()["state"] == "canceled"
@@ -226,13 +229,15 @@ def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service, resour
 def test_erasing_leaves_nothing_of_a_job_on_the_disk(service: Service):
     data = service.machine.data_dir
     secret = "spoor-7c1e"
-    response = service.post({"secret": secret}, request=REQUEST | {"focal_length_px": 713.28459})
+    response = service.post(
+        {"secret": secret}, request=REQUEST | said_of_view(focal_length_px=713.28459)
+    )
     path = response.headers["Location"]
     service.ended(path)
     assert _files_with(data, secret)
     assert _files_with(data, "713.28459")
     assert service.client.delete(path).status_code == 204
-    for gone in (path, f"{path}/result", f"{path}/events", f"{path}/artifacts/overlay.png"):
+    for gone in (path, f"{path}/result", f"{path}/events", f"{path}/files/views/0/overlay.png"):
         assert service.client.get(gone).status_code == 404
     assert service.client.delete(path).status_code == 404
     for trace in (secret, "713.28459"):
@@ -263,16 +268,15 @@ def test_erasing_a_running_fit_kills_its_process_and_keeps_no_files(
     eventually(lambda: not list(blobs.rglob(Path(path).name)), what="its files are gone")
 
 
-@of_either
-def test_the_same_idempotency_key_gives_the_same_job(service: Service, resource: str):
-    key = {"Idempotency-Key": f"{resource}-1"}
-    first = posted(service, resource, {"n": 1}, **key)
-    again = posted(service, resource, {"n": 1}, **key)
+def test_the_same_idempotency_key_gives_the_same_job(service: Service):
+    key = {"Idempotency-Key": "fits-1"}
+    first = service.post({"n": 1}, headers=key)
+    again = service.post({"n": 1}, headers=key)
     assert again.headers["Location"] == first.headers["Location"]
-    other = posted(service, resource, {"n": 2}, **key)
+    other = service.post({"n": 2}, headers=key)
     assert other.status_code == 422
     assert other.json()["type"] == "/problems/idempotency-key-reused"
-    assert posted(service, resource, {"n": 1}).headers["Location"] != first.headers["Location"]
+    assert service.post({"n": 1}).headers["Location"] != first.headers["Location"]
 
 
 def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
@@ -291,13 +295,12 @@ def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
     assert len(set(locations)) == 1
 
 
-@of_either
-def test_a_caller_may_wait_for_the_end(service: Service, resource: str):
-    done = posted(service, resource, {"seconds": 0.3}, Prefer="wait=60")
+def test_a_caller_may_wait_for_the_end(service: Service):
+    done = service.post({"seconds": 0.3}, headers={"Prefer": "wait=60"})
     assert done.status_code == 200
     assert done.json()["state"] == "succeeded"
     assert done.headers["Preference-Applied"] == "wait=60"
-    pending = posted(service, resource, {"seconds": 3600}, Prefer="respond-async, wait=1")
+    pending = service.post({"seconds": 3600}, headers={"Prefer": "respond-async, wait=1"})
     assert pending.status_code == 202
     assert pending.json()["state"] in ("queued", "running")
     service.client.delete(pending.headers["Location"])
@@ -330,36 +333,41 @@ def test_health_tells_whether_a_worker_is_alive(without_worker: Service):
     assert client.get("/v1/body-models").status_code == 503
 
 
-@of_either
-def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service, resource: str):
+def test_several_pictures_are_fitted_together(either: Service):
     service = either
-    script: dict[str, object] = {"seconds": 3600}
-    first = submitted(service, resource, script)
-    refused = service.client.post(f"{first}/retry")
-    assert (refused.status_code, refused.json()["code"]) == (409, "not-ended")
-    assert service.job(first)["links"]["retry"] is None
-    service.client.post(f"{first}/cancel")
-    link = service.ended(first)["links"]["retry"]
-
-    answers = [
-        service.client.post(link, headers={"Idempotency-Key": f"{resource}-{key}"}) for key in "aab"
-    ]
-    assert [answer.status_code for answer in answers] == [202] * 3
-    again, same, other = (answer.headers["Location"] for answer in answers)
-    assert again == same
-    assert len({first, again, other}) == 3
-    assert service.client.delete(first).status_code == 204
-    assert service.client.get(f"{again}/{PICTURE[resource]}").content == scripted_image(script)
-    assert service.client.get(f"{again}/request").json()["height_m"] == REQUEST["height_m"]
-    assert service.client.post(link).status_code == 404
-    for running in (again, other):
-        assert service.client.delete(running).status_code == 204
+    images = [scripted_image({"n": 1}), scripted_image({"n": 2}, width=700, height=500)]
+    masks = [scripted_image({"m": 1}), scripted_image({"m": 2}, width=700, height=500)]
+    answer = service.post_several(images=images, masks=masks)
+    assert answer.status_code == 202, answer.text
+    ended = service.ended(answer.headers["Location"])
+    assert ended["state"] == "succeeded"
+    files = ended["links"]["files"]
+    for number in range(2):
+        assert service.client.get(files[f"views/{number}/image"]).content == images[number]
+        assert service.client.get(files[f"views/{number}/mask"]).content == masks[number]
+    result = FitResult.model_validate_json(service.client.get(ended["links"]["result"]).content)
+    assert [each.view for each in result.views] == ["front", "side"]
+    assert result.agreement == 0.5
 
 
-@of_either
-def test_a_retry_is_waited_for_if_the_caller_prefers(service: Service, resource: str):
-    first = submitted(service, resource, {"unusable": True})
-    service.ended(first)
-    answer = service.client.post(f"{first}/retry", headers={"Prefer": "wait=60"})
-    assert (answer.status_code, answer.json()["state"]) == (200, "failed")
-    assert answer.headers["Preference-Applied"] == "wait=60"
+def test_a_fit_says_which_of_its_pictures_it_is_at(either: Service, tmp_path: Path):
+    service, gate = either, tmp_path / "gate"
+    path = service.submit_several({}, {"gate": str(gate)})
+    at_second = eventually(
+        lambda: (fit := service.job(path))["view"] == 1 and fit, what="the second picture"
+    )
+    assert (at_second["state"], at_second["stage"]) == ("running", "observation")
+    gate.touch()
+    assert service.ended(path)["view"] is None
+    progress = [each["data"] for each in service.events(path) if each["event"] == "progress"]
+    assert [each["view"] for each in progress] == [0, 1, None]
+
+
+def test_a_fit_waits_as_so_many_as_it_has_pictures(tmp_path: Path):
+    machine = Machine(tmp_path, settings={"max_queued": 3})
+    with running_service(machine, api_only=True) as service:
+        service.submit_several()
+        service.submit_several()
+        # Two fits are four pictures, more than three.
+        for refused in (service.post_several(), service.post()):
+            assert (refused.status_code, refused.json()["code"]) == (503, "queue-full")

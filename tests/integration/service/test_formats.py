@@ -8,7 +8,6 @@ import pytest
 
 from tests.integration.service.harness import Machine, Service, eventually, running_service
 from tests.integration.service.test_bad_input import checked
-from tests.integration.service.test_derivations import derived, fitted
 
 BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,*/*;q=0.8"
 MESH_TYPES = {
@@ -25,7 +24,7 @@ GLB_BYTES = 260
 def files(service: Service) -> str:
     """Where the files of a fit lie."""
     wait_for_estimator(service)
-    return f"{fitted(service)}/artifacts"
+    return f"{service.fitted()}/files"
 
 
 def wait_for_estimator(service: Service) -> None:
@@ -49,7 +48,7 @@ def without_accept(service: Service, path: str) -> httpx.Response:
 
 @pytest.mark.parametrize(("ending", "media_type"), MESH_TYPES.items())
 def test_a_mesh_is_had_in_another_format_by_its_name(service: Service, files, ending, media_type):
-    answer = get(service, f"{files}/body_posed.{ending}", Accept="image/png")
+    answer = get(service, f"{files}/body_canonical.{ending}", Accept="image/png")
     assert answer.status_code == 200
     assert answer.headers["content-type"] == media_type
     assert answer.content == f"{ending} of {GLB_BYTES} bytes".encode()
@@ -58,9 +57,9 @@ def test_a_mesh_is_had_in_another_format_by_its_name(service: Service, files, en
 
 def test_each_format_has_a_tag_of_its_own_and_ranges(service: Service, files):
     endings = ("glb", *MESH_TYPES)
-    tags = [get(service, f"{files}/body_posed.{each}").headers["ETag"] for each in endings]
+    tags = [get(service, f"{files}/body_canonical.{each}").headers["ETag"] for each in endings]
     assert len(set(tags)) == len(endings)
-    url = f"{files}/body_posed.ply"
+    url = f"{files}/body_canonical.ply"
     whole = get(service, url)
     assert whole.headers["Cache-Control"] == "no-store"
     assert get(service, url, If_None_Match=whole.headers["ETag"]).status_code == 304
@@ -88,16 +87,16 @@ def test_each_format_has_a_tag_of_its_own_and_ranges(service: Service, files):
     ],
 )
 def test_a_glb_is_answered_as_it_is_wanted(service: Service, files, accept, media_type):
-    answer = get(service, f"{files}/body_posed.glb", Accept=accept)
+    answer = get(service, f"{files}/body_canonical.glb", Accept=accept)
     assert (answer.status_code, answer.headers["content-type"]) == (200, media_type)
     assert answer.headers["Vary"] == "Accept"
     tag = answer.headers["ETag"]
-    again = get(service, f"{files}/body_posed.glb", Accept=accept, If_None_Match=tag)
+    again = get(service, f"{files}/body_canonical.glb", Accept=accept, If_None_Match=tag)
     assert (again.status_code, again.headers["Vary"]) == (304, "Accept")
 
 
 def test_who_says_nothing_of_formats_gets_what_is_stored(service: Service, files):
-    answer = without_accept(service, f"{files}/body_posed.glb")
+    answer = without_accept(service, f"{files}/body_canonical.glb")
     assert answer.headers["content-type"] == GLB
     assert len(answer.content) == GLB_BYTES
     picture = get(service, f"{files}/overlay.png", Accept="model/obj")
@@ -108,7 +107,7 @@ def test_who_says_nothing_of_formats_gets_what_is_stored(service: Service, files
     "accept", ["model/fbx", "application/json", "model/*;q=0", "x/" + "y" * 999]
 )
 def test_what_nobody_can_write_is_not_acceptable(service: Service, files, accept):
-    answer = get(service, f"{files}/body_posed.glb", Accept=accept)
+    answer = get(service, f"{files}/body_canonical.glb", Accept=accept)
     problem = checked(answer, 406)
     assert (problem.code, problem.field) == ("not-acceptable", "Accept")
     assert all(media_type in problem.remedy for media_type in (GLB, *MESH_TYPES.values()))
@@ -119,14 +118,14 @@ def test_what_nobody_can_write_is_not_acceptable(service: Service, files, accept
 @pytest.mark.parametrize(
     "name",
     [
-        *("body_posed.fbx", "body_posed.xyz", "body_posed", "body_posed.", ".obj"),
-        *("body_posed.mtl", "overlay.obj", "person.obj", "measurements.json", "result.csv"),
+        *("body_canonical.fbx", "body_canonical.xyz", "body_canonical", "body_canonical.", ".obj"),
+        *("body_canonical.mtl", "overlay.obj", "person.usdz", "measurements.json", "result.csv"),
     ],
 )
 def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
     problem = checked(get(service, f"{files}/{name}"), 404)
     assert f"'{name}'" in problem.detail
-    assert "body_posed (.glb, .obj, .ply, .stl)" in problem.remedy
+    assert "body_canonical (.glb, .obj, .ply, .stl, .usdz)" in problem.remedy
     for there in ("overlay.png", "person.npz", "measurements.csv", "result.json"):
         assert there in problem.remedy
 
@@ -134,8 +133,8 @@ def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, 
 def test_a_job_that_has_no_files_says_where_it_stands(service: Service):
     path = service.submit({"unusable": True})
     service.ended(path)
-    for name in ("body_posed.obj", "measurements.csv"):
-        problem = checked(get(service, f"{path}/artifacts/{name}"), 404)
+    for name in ("body_canonical.obj", "measurements.csv"):
+        problem = checked(get(service, f"{path}/files/{name}"), 404)
         assert "failed" in problem.remedy
 
 
@@ -143,35 +142,16 @@ def test_measurements_are_a_table_with_units(service: Service, files):
     answer = get(service, f"{files}/measurements.csv")
     assert answer.headers["content-type"] == "text/csv; charset=utf-8"
     (row,) = csv.DictReader(io.StringIO(answer.text))
-    told = get(service, files.replace("/artifacts", "/result")).json()["measurements"][0]
+    told = get(service, files.replace("/files", "/result")).json()["measurements"][0]
     assert (row["name"], row["unit"], float(row["value"])) == ("waist_girth", "cm", told["value"])
     assert (row["standard_error"], row["given"]) == ("1.0", "false")
     tag = answer.headers["ETag"]
     assert get(service, f"{files}/measurements.csv", If_None_Match=tag).status_code == 304
 
 
-def test_what_is_derived_is_had_in_other_formats_too(service: Service):
-    fit = fitted(service)
-    made = {}
-    for request in (
-        {"kind": "pose"},
-        {"kind": "texture", "colours": "picture"},
-    ):
-        path = derived(service, fit, request)
-        assert service.ended(path)["state"] == "succeeded"
-        made[request["kind"]] = f"{path}/artifacts"
-    assert get(service, f"{made['pose']}/body_reposed.stl").content == b"stl of 4 bytes"
-    wanted = get(service, f"{made['pose']}/body_reposed.glb", Accept="model/obj")
-    assert wanted.content == b"obj of 4 bytes"
-    material = get(service, f"{made['texture']}/body_textured.mtl")
-    assert (material.content, material.headers["content-type"]) == (b"mtl of 4 bytes", "model/mtl")
-    problem = checked(get(service, f"{made['pose']}/measurements.csv"), 404)
-    assert "measurements" not in problem.remedy
-
-
 def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files):
-    links = service.job(files.replace("/artifacts", ""))["links"]["artifacts"]
-    assert set(links) == {"body_posed.glb", "overlay.png", "person.npz", "result.json"}
+    links = service.job(files.replace("/files", ""))["links"]["files"]
+    assert set(links) == {"body_canonical.glb", "overlay.png", "person.npz", "result.json"}
 
 
 @pytest.mark.parametrize(
@@ -209,16 +189,35 @@ def test_a_body_s_mesh_and_table_are_its_own(service: Service):
 
 
 def test_a_conversion_is_counted_among_the_estimates(service: Service, files):
-    get(service, f"{files}/body_posed.stl")
+    get(service, f"{files}/body_canonical.stl")
     figures = service.client.get("/metrics").text
     assert 'maquette_estimates_total{outcome="answered",question="conversion"}' in figures
 
 
 def test_without_an_estimator_stored_files_are_there_and_others_are_for_later(tmp_path):
     with running_service(Machine(tmp_path), estimator="broken") as service:
-        files = f"{fitted(service)}/artifacts"
-        assert get(service, f"{files}/body_posed.glb").status_code == 200
+        files = f"{service.fitted()}/files"
+        assert get(service, f"{files}/body_canonical.glb").status_code == 200
         assert get(service, f"{files}/measurements.csv").status_code == 200
-        answer = get(service, f"{files}/body_posed.obj")
+        answer = get(service, f"{files}/body_canonical.obj")
         assert checked(answer, 503).code == "estimator-unavailable"
         assert int(answer.headers["Retry-After"]) > 0
+
+
+def test_without_its_library_usdz_is_not_offered_and_who_asks_is_told(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_USD), prepend=":")
+    with running_service(Machine(tmp_path)) as service:
+        wait_for_estimator(service)
+        files = f"{service.fitted()}/files"
+        assert get(service, f"{files}/body_canonical.obj").status_code == 200
+        told = [
+            checked(get(service, f"{files}/body_canonical.usdz"), 404),
+            checked(get(service, f"{files}/body_canonical.glb", Accept="model/vnd.usdz+zip"), 406),
+        ]
+        for problem in told:
+            assert problem.code == "format-not-installed"
+            assert "usd-core" in problem.detail
+            assert "`usdz`" in problem.remedy
+            assert "vnd.usdz" not in problem.remedy
+        listed: Problem = checked(get(service, f"{files}/body_canonical.fbx"), 404)
+        assert "body_canonical (.glb, .obj, .ply, .stl)," in listed.remedy

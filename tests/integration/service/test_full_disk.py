@@ -65,7 +65,7 @@ def on_disk(shared: tuple[SmallDisk, Service]) -> Iterator[tuple[SmallDisk, Serv
     mounted, service = shared
     yield mounted, service
     mounted.clear()
-    for job in service.client.get("/v1/fits").raise_for_status().json()["jobs"]:
+    for job in service.client.get("/v1/fits").raise_for_status().json()["fits"]:
         service.client.delete(job["links"]["self"]).raise_for_status()
 
 
@@ -195,7 +195,7 @@ def test_in_the_reserve_all_can_be_read_and_erased_and_nothing_is_lost(
     assert_no_room(service.post())
     assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
     assert service.client.get("/metrics").status_code == 200
-    assert len(service.client.get("/v1/fits").json()["jobs"]) == 7
+    assert len(service.client.get("/v1/fits").json()["fits"]) == 7
 
     before = blobs_of(disk)
     for path in (ended[0], waiting[0], image, ended[1]):

@@ -19,6 +19,7 @@ from tests.integration.service.harness import (
     Service,
     eventually,
     running_service,
+    said_of_view,
 )
 from tests.integration.service.test_bad_input import checked
 
@@ -155,12 +156,12 @@ def test_ids_that_are_none_and_unknown_ones_are_told_apart(service: Service):
 def test_a_fit_is_made_of_an_uploaded_picture_and_outlives_it(service: Service):
     script = {"seconds": 0.2}
     image = uploaded(service, scripted_image(script))
-    answer = service.client.post("/v1/fits", json=REQUEST | {"image_id": image.id})
+    answer = service.client.post("/v1/fits", json=REQUEST | said_of_view(image_id=image.id))
     assert answer.status_code == 202, answer.text
     assert service.client.delete(f"/v1/images/{image.id}").status_code == 204
     job = service.ended(answer.headers["Location"])
     assert job["state"] == "succeeded"
-    overlay = service.client.get(job["links"]["artifacts"]["overlay.png"])
+    overlay = service.client.get(job["links"]["files"]["views/0/overlay.png"])
     assert overlay.content == scripted_image(script)
 
 
@@ -168,10 +169,17 @@ def test_a_mask_may_be_uploaded_too_and_has_the_picture_s_size(service: Service)
     image = uploaded(service, scripted_image())
     mask = uploaded(service, scripted_image({"n": 5}))
     small = uploaded(service, scripted_image(width=10))
-    request = REQUEST | {"image_id": image.id}
-    assert service.client.post("/v1/fits", json=request | {"mask_id": mask.id}).status_code == 202
-    refused = checked(service.client.post("/v1/fits", json=request | {"mask_id": small.id}), 422)
-    assert (refused.field, refused.code) == ("mask", "mask-size-mismatch")
+    masked, wrong = (
+        service.client.post(
+            "/v1/fits", json=REQUEST | said_of_view(image_id=image.id, mask_id=each.id)
+        )
+        for each in (mask, small)
+    )
+    assert masked.status_code == 202
+    refused = checked(wrong, 422)
+    assert (refused.field, refused.code) == ("views.0.mask", "mask-size-mismatch")
+    files = service.ended(masked.headers["Location"])["links"]["files"]
+    assert service.client.get(files["views/0/mask"]).content == scripted_image({"n": 5})
 
 
 @pytest.mark.parametrize(
@@ -184,8 +192,8 @@ def test_a_mask_may_be_uploaded_too_and_has_the_picture_s_size(service: Service)
     ],
 )
 def test_a_fit_of_no_such_picture_names_the_field(service: Service, changes, field, code):
-    problem = checked(service.client.post("/v1/fits", json=REQUEST | changes), 422)
-    assert (problem.field, problem.code) == (field, code)
+    problem = checked(service.client.post("/v1/fits", json=REQUEST | said_of_view(**changes)), 422)
+    assert (problem.field, problem.code) == (f"views.0.{field}", code)
 
 
 def test_a_fit_whose_body_is_no_json_is_malformed(service: Service):
@@ -198,7 +206,7 @@ def test_a_fit_whose_body_is_no_json_is_malformed(service: Service):
 def test_an_idempotency_key_holds_for_fits_of_uploaded_pictures(service: Service):
     image = uploaded(service, scripted_image({"n": 6}))
     headers = {"Idempotency-Key": "fit-of-an-upload"}
-    request = REQUEST | {"image_id": image.id}
+    request = REQUEST | said_of_view(image_id=image.id)
     first, again = (
         service.client.post("/v1/fits", json=request, headers=headers) for _ in range(2)
     )

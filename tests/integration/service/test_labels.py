@@ -1,4 +1,4 @@
-"""Fits and scans by person: labelled, listed, erased, each tenant's for itself."""
+"""Fits by person: labelled, listed, erased, each tenant's for itself."""
 
 from typing import Any
 from uuid import uuid4
@@ -6,10 +6,8 @@ from uuid import uuid4
 import pytest
 
 from service.engine.dbos_jobs import JobEngine
-from service.engine.port import FIT, SCAN, NewJob, StoredBlob, SubmitOutcome
+from service.engine.port import FIT, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service
-from tests.integration.service.scanning import SCAN as SCAN_REQUEST
-from tests.integration.service.scanning import submit_scan
 from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_images import engine_of
 
@@ -26,12 +24,12 @@ def fit(service: Service, label: str | None) -> str:
     return answer.headers["Location"]
 
 
-def listed(service: Service, collection: str, label: str, **query: Any) -> list[str]:
+def listed(service: Service, label: str, **query: Any) -> list[str]:
     """Paths of all jobs of a label, over all pages."""
-    page = service.client.get(f"/v1/{collection}", params={"label": label, **query}).json()
+    page = service.client.get("/v1/fits", params={"label": label, **query}).json()
     found = []
     while True:
-        jobs = page["jobs" if collection == "fits" else "scans"]
+        jobs = page["fits"]
         assert {job["label"] for job in jobs} <= {label}
         found += [job["links"]["self"] for job in jobs]
         if page["next"] is None:
@@ -39,32 +37,19 @@ def listed(service: Service, collection: str, label: str, **query: Any) -> list[
         page = service.client.get(page["next"]).json()
 
 
-def test_fits_and_scans_are_listed_by_label(either: Service):
+def test_fits_are_listed_by_label(either: Service):
     service = either
     anna, ben = name(), name()
     fits = [fit(service, label) for label in (anna, ben, None, anna, anna)]
-    scan = submit_scan(service, request={**SCAN_REQUEST, "label": anna})
-    assert listed(service, "fits", anna, limit=1) == [fits[4], fits[3], fits[0]]
-    assert listed(service, "fits", ben) == [fits[1]]
-    assert listed(service, "scans", anna) == [scan]
-    assert listed(service, "scans", ben) == []
-    assert listed(service, "fits", anna[:-1]) == []
-    assert listed(service, "fits", anna.upper()) == []
+    assert listed(service, anna, limit=1) == [fits[4], fits[3], fits[0]]
+    assert listed(service, ben) == [fits[1]]
+    assert listed(service, anna[:-1]) == []
+    assert listed(service, anna.upper()) == []
     for path in fits:
         assert service.ended(path)["state"] == "succeeded"
-    assert len(listed(service, "fits", anna, state="succeeded", limit=2)) == 3
-    assert listed(service, "fits", anna, state="failed") == []
-    assert service.job(scan)["label"] == anna
+    assert len(listed(service, anna, state="succeeded", limit=2)) == 3
+    assert listed(service, anna, state="failed") == []
     assert service.job(fits[2])["label"] is None
-
-
-def test_a_retry_keeps_the_label(service: Service):
-    label = name()
-    path = fit(service, label)
-    service.ended(path)
-    again = service.client.post(f"{path}/retry").json()
-    assert again["label"] == label
-    assert listed(service, "fits", label) == [again["links"]["self"], path]
 
 
 def test_an_erased_job_is_no_more_among_those_of_its_label(either: Service):
@@ -72,7 +57,7 @@ def test_an_erased_job_is_no_more_among_those_of_its_label(either: Service):
     path = fit(either, label)
     either.ended(path)
     assert either.client.delete(path).status_code == 204
-    assert listed(either, "fits", label) == []
+    assert listed(either, label) == []
 
 
 def test_the_same_key_with_another_label_is_another_request(service: Service):
@@ -88,30 +73,27 @@ def test_the_same_key_with_another_label_is_another_request(service: Service):
 
 
 @pytest.mark.parametrize("label", ["", "x" * 81, "two\nlines", "  "])
-@pytest.mark.parametrize("path", ["/v1/fits", "/v1/scans"])
-def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service, path, label):
-    problem = checked(service.client.get(path, params={"label": label}), 422)
+def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service, label):
+    problem = checked(service.client.get("/v1/fits", params={"label": label}), 422)
     assert problem.field == "label"
     assert problem.code in ("wrong-length", "unreadable-label")
     assert checked(service.post(request={**REQUEST, "label": label}), 422).field == "label"
 
 
-def accept(engine: JobEngine, tenant: str, root: str, job_id: str, label: str) -> None:
+def accept(engine: JobEngine, tenant: str, job_id: str, label: str) -> None:
     blob = StoredBlob(digest="0" * 64, media_type="application/json")
-    jobs = engine.of(tenant, root)
+    jobs = engine.of(tenant)
     jobs.reserve(job_id, None)
-    job = NewJob(id=job_id, kind=root, options=blob, inputs={}, label=label)
+    job = NewJob(id=job_id, kind=FIT, options=blob, inputs={}, label=label)
     assert jobs.submit(job).outcome is SubmitOutcome.ACCEPTED
 
 
 def test_a_tenant_sees_its_own_labels_alone(machine: Machine):
     engine = engine_of(machine)
     try:
-        accept(engine, "ours", FIT, "1", "Anna")
-        accept(engine, "theirs", FIT, "2", "Anna")
-        accept(engine, "theirs", SCAN, "3", "Ben")
+        accept(engine, "ours", "1", "Anna")
+        accept(engine, "theirs", "2", "Anna")
         ours = engine.of("ours").jobs(limit=9, before=None, state=None, label="Anna")
         assert [job.id for job in ours] == ["1"]
-        assert engine.of("ours", SCAN).jobs(limit=9, before=None, state=None, label="Ben") == []
     finally:
         engine.close()

@@ -80,8 +80,8 @@ def all_alive(service: Service, *workers: subprocess.Popen[bytes]) -> bool:
 
 def artifact(service: Service, job: dict, name: str) -> bytes:
     result = service.client.get(job["links"]["result"]).raise_for_status().json()
-    assert name in {entry["name"] for entry in result["artifacts"]}
-    path = f"/v1/fits/{job['id']}/artifacts/{name}"
+    assert name in {entry["name"] for entry in result["files"]}
+    path = f"/v1/fits/{job['id']}/files/{name}"
     return service.client.get(path).raise_for_status().content
 
 

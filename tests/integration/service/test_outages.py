@@ -47,7 +47,7 @@ def test_what_is_accepted_survives_a_full_disk(embedded: Machine, tmp_path: Path
         assert (job["state"], job["attempt"]) == ("succeeded", 1)
         assert service.client.get(job["links"]["result"]).status_code == 200
         assert service.ended(service.submit())["state"] == "succeeded"
-        assert len(service.client.get("/v1/fits").json()["jobs"]) == 2
+        assert len(service.client.get("/v1/fits").json()["fits"]) == 2
 
 
 def test_a_locked_embedded_database_is_waited_for(embedded: Machine, tmp_path: Path):

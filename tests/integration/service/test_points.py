@@ -9,9 +9,9 @@ from pathlib import Path
 import httpx
 import pytest
 
+from api_schemas.fit import FitRequest
 from api_schemas.points import Point
 from api_schemas.proposals import PointsProposal
-from api_schemas.requests import FitOptions
 from tests.integration.service.fake_answers import MASK
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -21,11 +21,12 @@ from tests.integration.service.harness import (
     Service,
     eventually,
     running_service,
+    said_of_view,
 )
 from tests.integration.service.test_bad_input import checked
 
 WITHOUT_DETECTOR = Path(__file__).parent / "without_detector"
-AUTO: Mapping[str, object] = REQUEST | {"points": "auto"}
+AUTO: Mapping[str, object] = REQUEST | {"views": [{}]}
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -54,11 +55,12 @@ def test_points_of_a_picture_can_be_sent_as_points_of_a_fit(service: Service):
     for sent in answer.json()["points"].values():
         assert Point.model_validate_json(json.dumps(sent)).source == "proposal"
     mixed = {**POINTS, **answer.json()["points"]}
-    fit = service.post(request=REQUEST | {"points": mixed})
+    fit = service.post(request=REQUEST | said_of_view(points=mixed))
     assert fit.status_code == 202, fit.text
     understood = service.client.get(fit.json()["links"]["request"]).json()
-    assert understood["points"]["nose"] == answer.json()["points"]["nose"]
-    assert understood["points"]["left_hip"]["source"] == "click"
+    points = understood["views"][0]["points"]
+    assert points["nose"] == answer.json()["points"]["nose"]
+    assert points["left_hip"]["source"] == "click"
 
 
 def test_nobody_is_an_answer_too(service: Service):
@@ -137,23 +139,27 @@ def test_a_fit_whose_points_are_to_be_proposed_is_understood_so(service: Service
     assert fit.status_code == 202, fit.text
     path = fit.headers["Location"]
     assert service.ended(path)["state"] == "succeeded"
-    options = FitOptions.model_validate_json(service.client.get(f"{path}/request").content)
-    assert (options.points, options.complete_points) == ({}, True)
+    options = FitRequest.model_validate_json(service.client.get(f"{path}/request").content)
+    assert options.views[0].points == "auto"
 
 
 def test_few_points_are_enough_where_the_others_are_proposed(service: Service):
     one = {"points": {"left_knee": [362.0, 350.0]}}
-    assert checked(service.post(request=REQUEST | one), 422).code == "too-few-points"
-    fit = service.post(request=REQUEST | one | {"complete_points": True})
+    alone, completed = (
+        REQUEST | said_of_view(**one, complete_points=each) for each in (False, True)
+    )
+    assert checked(service.post(request=alone), 422).code == "too-few-points"
+    fit = service.post(request=completed)
     assert fit.status_code == 202, fit.text
-    outside = {"points": {"left_knee": [641.0, 350.0]}, "complete_points": True}
+    outside = said_of_view(points={"left_knee": [641.0, 350.0]}, complete_points=True)
     problem = checked(service.post(request=REQUEST | outside), 422)
-    assert (problem.field, problem.code) == ("points.left_knee", "point-outside-image")
+    assert (problem.field, problem.code) == ("views.0.points.left_knee", "point-outside-image")
 
 
 def test_an_initial_pose_has_no_picture_to_propose_points_of(service: Service):
     size = {"image_size": {"width": 640, "height": 480}}
-    problem = checked(service.client.post("/v1/initial-poses", json={**AUTO, **size}), 422)
+    asked = {"gender": "male", "points": "auto", **size}
+    problem = checked(service.client.post("/v1/initial-poses", json=asked), 422)
     assert problem.field == "points"
 
 
@@ -164,9 +170,9 @@ def test_without_a_detector_points_are_not_proposed_and_all_else_works(tmp_path:
         assert told.code == "detector-not-installed"
         assert "pip install" in told.remedy
         for changes, field in (
-            ({"points": "auto"}, "points"),
-            ({"complete_points": True}, "complete_points"),
+            ({"points": "auto"}, "views.0.points"),
+            ({"complete_points": True}, "views.0.complete_points"),
         ):
-            refused = checked(service.post(request=REQUEST | changes), 422)
+            refused = checked(service.post(request=REQUEST | said_of_view(**changes)), 422)
             assert (refused.field, refused.code) == (field, "detector-not-installed")
         assert service.post().status_code == 202

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from api_schemas.client import Maquette, MaquetteError
+from api_schemas.fit import FitRequest
 from api_schemas.points import AUTO
-from api_schemas.requests import FitRequest
 from fitter.vocabulary.choices import Gender
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import Service

@@ -21,8 +21,6 @@ def port_of(service: Service) -> int:
     ("path", "known"),
     [
         ("/v1/fits", ("limit", "cursor", "state", "label")),
-        ("/v1/scans", ("limit", "cursor", "state", "label")),
-        (f"/v1/fits/{'0' * 8}-0000-0000-0000-{'0' * 12}/derivations", ("limit", "state")),
     ],
 )
 def test_a_misspelt_filter_is_refused_by_its_name(service: Service, path, known):

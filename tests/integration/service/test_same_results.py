@@ -7,13 +7,12 @@ import pytest
 
 from api_schemas.derivations import DerivationRequest
 from service.engine.port import FIT
-from service.jobs.inputs import IMAGE, PERSON, RESULT
+from service.jobs.inputs import IMAGE, PERSON, RESULT, of_view
 from service.numerics.fork_server import Child, ForkServer
 from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
 from service.numerics.tasks import ChildSetup
-from service.submissions.submission import check_fit
 from service.worker.tasks import DERIVATION, OPTIONS, STAGE_SECONDS
-from tests.submissions import small_submissions
+from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
 SETUP = ChildSetup(
@@ -112,11 +111,10 @@ def _without_durations(document: bytes) -> bytes:
 
 
 def _fit(request: str, image: bytes) -> Job:
-    checked = check_fit(request=request.encode(), image=image, mask=None, max_pixels=MAX_PIXELS)
-    return FIT, {OPTIONS: checked.options.model_dump_json().encode(), IMAGE: image}
+    asked = checked(request.encode(), image, max_pixels=MAX_PIXELS)
+    return FIT, {OPTIONS: asked.model_dump_json().encode(), of_view(0, IMAGE): image}
 
 
 def _derivation(options: dict[str, object], inputs: dict[str, bytes]) -> Job:
-    checked = DerivationRequest.model_validate(options)
-    options_part = checked.model_dump_json().encode()
+    options_part = DerivationRequest.model_validate(options).model_dump_json().encode()
     return DERIVATION, {OPTIONS: options_part, **inputs}

@@ -6,16 +6,14 @@ from typing import Any
 import pytest
 
 from tests.integration.service.harness import Service
-from tests.integration.service.scanning import post_scan
 
 PLAIN = {"Accept-Encoding": "identity"}
 PACKED = {"Accept-Encoding": "br, gzip"}
 
 
-@pytest.fixture(scope="module", params=["fits", "scans"])
-def job(request: pytest.FixtureRequest, service: Service) -> dict[str, Any]:
-    answer = service.post({}) if request.param == "fits" else post_scan(service)
-    return service.ended(answer.headers["Location"])
+@pytest.fixture(scope="module")
+def job(service: Service) -> dict[str, Any]:
+    return service.ended(service.submit())
 
 
 def test_stages_are_told_to_those_who_ask(service: Service, job: dict[str, Any]):
@@ -28,7 +26,7 @@ def test_stages_are_told_to_those_who_ask(service: Service, job: dict[str, Any])
     tag = {"If-None-Match": brief.headers["ETag"]}
     assert service.client.get(path, headers=tag).status_code == 304
     assert service.client.get(path, params={"include": "stages"}, headers=tag).status_code == 200
-    stored = service.client.get(job["links"]["artifacts"]["result.json"])
+    stored = service.client.get(job["links"]["files"]["result.json"])
     assert stored.json() == whole.json()
 
 
@@ -58,7 +56,7 @@ def test_json_is_compressed_when_asked_for(service: Service, job: dict[str, Any]
 
 
 def test_no_part_of_a_file_is_put_to_a_compressed_one(service: Service, job: dict[str, Any]):
-    path = job["links"]["artifacts"]["result.json"]
+    path = job["links"]["files"]["result.json"]
     plain, packed = (service.client.get(path, headers=each) for each in (PLAIN, PACKED))
     tag = f'"{hashlib.sha256(plain.content).hexdigest()}"'
     assert (plain.headers["ETag"], packed.headers["ETag"]) == (tag, f"W/{tag}")
@@ -75,7 +73,7 @@ def test_no_part_of_a_file_is_put_to_a_compressed_one(service: Service, job: dic
 
 def test_events_come_one_by_one_and_meshes_as_they_are(service: Service, job: dict[str, Any]):
     links = job["links"]
-    mesh = next(path for name, path in links["artifacts"].items() if name.endswith(".glb"))
+    mesh = next(path for name, path in links["files"].items() if name.endswith(".glb"))
     for path in (links["events"], mesh):
         answer = service.client.get(path, headers=PACKED)
         assert answer.status_code == 200

@@ -9,10 +9,8 @@ from typing import Any
 
 import pytest
 
-from api_schemas.jobs import Job
-from api_schemas.scans import Scan, ScanEvent
+from api_schemas.jobs import Fit
 from api_schemas.webhooks import WebhookEvent
-from tests.integration.service import scanning
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     OWN_SECRET,
@@ -23,9 +21,9 @@ from tests.integration.service.harness import (
     Service,
     eventually,
     running_service,
+    said_of_view,
 )
 from tests.integration.service.receiver import SECRET, Receiver
-from tests.integration.service.scanning import of_either
 
 
 def with_settings(machine: Machine, **changes: object) -> Machine:
@@ -55,15 +53,15 @@ def given_up(service: Service) -> float:
     return float(found[1]) if found else 0.0
 
 
-@of_either
-def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
-    either: Service, receiver: Receiver, tmp_path: Path, resource: str
+def test_the_end_of_a_fit_is_told_signed_and_repeated_until_it_is_accepted(
+    either: Service, receiver: Receiver, tmp_path: Path
 ):
     service, gate = either, tmp_path / "gate"
     receiver.statuses = [500, 302, 200]
     receiver.headers = {"Location": receiver.url("/elsewhere")}
     webhook = {"url": receiver.url("/a?b=c"), "secret": SECRET}
-    path = scanning.submitted(service, resource, {"gate": str(gate)}, {"webhook": webhook})
+    answer = service.post({"gate": str(gate)}, request=REQUEST | {"webhook": webhook})
+    path = answer.headers["Location"]
     assert service.job(path)["webhook"] == {
         "state": "waiting",
         "attempts": 0,
@@ -79,17 +77,16 @@ def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
         "last_error": None,
         "next_attempt_at": None,
     }
-    of_job, of_notice = (Job, WebhookEvent) if resource == "fits" else (Scan, ScanEvent)
-    job = of_job.model_validate_json(service.client.get(path).content)
+    fit = Fit.model_validate_json(service.client.get(path).content)
     assert [notice.path for notice in receiver.notices] == ["/a?b=c"] * 3
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
     assert not receiver.notices[0].is_signed_with(OWN_SECRET)
-    assert {notice.headers["webhook-id"] for notice in receiver.notices} == {str(job.id)}
+    assert {notice.headers["webhook-id"] for notice in receiver.notices} == {str(fit.id)}
     assert len({notice.body for notice in receiver.notices}) == 1
-    event = of_notice.model_validate_json(receiver.notices[0].body)
-    assert event.type == f"{resource[:-1]}.succeeded"
-    assert event.timestamp == job.finished_at
-    assert event.data == job.model_copy(update={"webhook": None})
+    event = WebhookEvent.model_validate_json(receiver.notices[0].body)
+    assert event.type == "fit.succeeded"
+    assert event.timestamp == fit.finished_at
+    assert event.data == fit.model_copy(update={"webhook": None})
     assert SECRET not in receiver.notices[0].body.decode()
 
 
@@ -124,7 +121,7 @@ def test_a_fit_of_an_uploaded_picture_is_told_too_with_the_services_own_secret(
     picture = service.client.post(
         "/v1/images", files={"image": ("p.png", scripted_image(), "image/png")}
     ).json()
-    body = REQUEST | {"image_id": picture["id"], "webhook": {"url": receiver.url()}}
+    body = REQUEST | said_of_view(image_id=picture["id"]) | {"webhook": {"url": receiver.url()}}
     path = service.client.post("/v1/fits", json=body).headers["Location"]
     assert settled(service, path)["state"] == "delivered"
     assert receiver.notices[0].is_signed_with(OWN_SECRET)

@@ -283,17 +283,3 @@ def test_a_chart_may_be_json_a_table_or_come_later():
     one = size("one size", head_girth=57)
     tolerance = {"head_girth": {"too_small": 1, "too_large": 2}}
     assert faults(chart={"sizes": [one]}, tolerances=tolerance) == []
-
-
-@pytest.mark.parametrize(
-    ("names", "fault"),
-    [
-        (["waist"], ("measurements.0", "unknown-value")),
-        (["weight", "weight"], ("measurements.1", "repeated")),
-        ([], ("measurements", "wrong-length")),
-    ],
-)
-def test_measurements_that_are_compared_are_named_once_and_are_there(names, fault):
-    since = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
-    found = faults(kind="change", since=since, measurements=names)
-    assert found[0] == fault

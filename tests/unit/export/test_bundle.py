@@ -2,7 +2,6 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.export import artifacts
 from fitter.export.display import png
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb

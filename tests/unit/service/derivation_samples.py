@@ -20,6 +20,7 @@ from service.jobs.inputs import (
     PERSON,
     RESULT,
     SEGMENTATION,
+    of_view,
 )
 from service.worker.pipeline import derive
 from service.worker.pipeline_port import (
@@ -57,10 +58,10 @@ def person() -> FittedPerson:
 
 INPUTS = {
     PERSON: person().to_bytes(),
-    RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
-    IMAGE: png(),
-    SEGMENTATION: png(66, 99, level=255),
-    OVERLAY: png(),
+    RESULT: fit_result().model_dump_json().encode(),
+    of_view(0, IMAGE): png(),
+    of_view(0, SEGMENTATION): png(66, 99, level=255),
+    of_view(0, OVERLAY): png(),
 }
 
 

@@ -8,7 +8,6 @@ from service.api.openapi import recorded_examples
 
 _ANSWERS = recorded_examples()["answers"]
 RESULT: dict[str, Any] = _ANSWERS["get_fit_result"]["200"]["sample"]
-SCAN_RESULT: dict[str, Any] = _ANSWERS["get_scan_result"]["200"]["sample"]
 
 
 def fit_result(**changes: object) -> FitResult:

@@ -5,7 +5,7 @@ import sqlalchemy as sa
 
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import problem
-from api_schemas.results import Artifact
+from api_schemas.results import ResultFile
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
 from service.engine.database import open_database
 from service.engine.port import AttemptResult, Directive, Ending, Report
@@ -14,8 +14,8 @@ from service.engine.tables import EVENTS, JOBS, METADATA
 from tests.stored_jobs import insert_job
 
 JOB = "00000000-0000-0000-0000-000000000001"
-ARTIFACT = Artifact(name="a.png", media_type="image/png", size=1, sha256="0" * 64)
-SUCCESS = AttemptResult(ending=Ending.SUCCEEDED, artifacts=(ARTIFACT,))
+ARTIFACT = ResultFile(name="a.png", media_type="image/png", size=1, sha256="0" * 64)
+SUCCESS = AttemptResult(ending=Ending.SUCCEEDED, files=(ARTIFACT,))
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_an_attempt_runs_and_ends(database):
     assert ended is not None
     assert ended.state is JobState.SUCCEEDED
     assert ended.progress == 1.0
-    assert ended.artifacts == (ARTIFACT,)
+    assert ended.files == (ARTIFACT,)
     assert ended.finished_at is not None
 
 

@@ -66,7 +66,7 @@ def test_a_request_and_a_result_are_shown(kind: Definition):
     shown = recorded_examples()["answers"]["get_fit_derivation_result"]["200"][kind.kind]
     answer = DerivationResult.model_validate_json(json.dumps(shown)).root
     assert type(answer) is kind.result
-    assert answer.artifacts
+    assert answer.files
 
 
 @each_kind

@@ -28,7 +28,7 @@ from service.jobs.inputs import (
     SEGMENTATION,
     TEXTURE,
 )
-from service.worker.artifacts import MEDIA_TYPES, with_result_document
+from service.worker.files import MEDIA_TYPES, with_result_document
 from service.worker.pipeline_port import (
     UnusableInputError,
 )
@@ -59,7 +59,7 @@ def test_a_body_moves_as_the_named_motion_says():
     assert (waving.result.motion, squatting.result.motion) == ("wave", "squat")
     assert squatting.result.source == "the squat that ships with the package"
     high, low = (
-        read_glb(each.artifacts["body_animated.glb"]).attribute("POSITION")[:, 1]
+        read_glb(each.files["body_animated.glb"]).attribute("POSITION")[:, 1]
         for each in (waving, squatting)
     )
     assert np.ptp(low) < 0.8 * np.ptp(high)
@@ -68,22 +68,22 @@ def test_a_body_moves_as_the_named_motion_says():
 @pytest.mark.parametrize("kind", list(DerivationKind))
 def test_a_derivation_s_document_lists_its_files_and_is_of_its_type(kind):
     output = derived(kind=kind, **NEEDED.get(kind, {}))
-    assert {f".{name.rpartition('.')[2]}" for name in output.artifacts} <= set(MEDIA_TYPES)
-    files = with_result_document(output.result, output.artifacts)
+    assert {f".{name.rpartition('.')[2]}" for name in output.files} <= set(MEDIA_TYPES)
+    files = with_result_document(output.result, output.files)
     document = DerivationResult.model_validate_json(files[RESULT]).root
     assert document.kind == kind
-    assert {each.name for each in document.artifacts} == set(output.artifacts)
+    assert {each.name for each in document.files} == set(output.files)
 
 
 def test_the_same_derivation_gives_the_same_bytes():
-    assert derived(kind="pose").artifacts == derived(kind="pose").artifacts
+    assert derived(kind="pose").files == derived(kind="pose").files
 
 
 def test_a_caricature_says_what_was_exaggerated():
     output = derived(kind="caricature", factor=1.5)
     result = output.result.model_dump()
     assert (result["coefficient"], result["before"], result["after"]) == (2, 1.0, 1.5)
-    glb = read_glb(output.artifacts["body_caricature.glb"])
+    glb = read_glb(output.files["body_caricature.glb"])
     positions = glb.attribute("POSITION")
     assert positions[:, 1].min() == pytest.approx(0.0, abs=1e-6)
     assert glb.document["asset"]["extras"]["factor"] == 1.5
@@ -94,7 +94,7 @@ def test_a_caricature_of_looks_exaggerates_every_coefficient():
     looks = derived(kind="caricature", exaggerated="looks", factor=1.5)
     result = looks.result.model_dump()
     assert result["shape"][1:] == pytest.approx([1.5 * value for value in fitted["shape"][1:]])
-    extras = read_glb(looks.artifacts["body_caricature.glb"]).document["asset"]["extras"]
+    extras = read_glb(looks.files["body_caricature.glb"]).document["asset"]["extras"]
     assert extras["exaggerated"] == "looks"
 
 
@@ -130,7 +130,7 @@ def test_the_picture_is_on_the_body_in_new_poses(asked, files):
     assert output.result.colours is BodyColours.PICTURE
     model = load_body_model(packaged_model_path("female"))
     for name in files:
-        glb = read_glb(output.artifacts[name])
+        glb = read_glb(output.files[name])
         (image,) = glb.document["images"]
         view = glb.document["bufferViews"][image["bufferView"]]
         encoded = glb.binary[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
@@ -169,7 +169,7 @@ def test_a_body_in_a_new_pose_is_plain_if_asked_for_or_if_nothing_is_seen(kind):
     nowhere = derived(files={SEGMENTATION: png(66, 99, level=0)}, **asked)
     for output in (plain, nowhere):
         assert output.result.colours is BodyColours.PLAIN
-        for name, content in output.artifacts.items():
+        for name, content in output.files.items():
             if name.endswith(".glb"):
                 assert "images" not in read_glb(content).document
 
@@ -210,20 +210,20 @@ def test_a_texture_of_one_s_own_is_albedo_in_the_light_of_the_fit(fitted, extens
     output = derived(
         files={TEXTURE: painted, PERSON: fitted()}, kind="texture", colours="own", size=512
     )
-    assert set(output.artifacts) == {"body_textured.glb", "texture.png", "atlas.png"}
+    assert set(output.files) == {"body_textured.glb", "texture.png", "atlas.png"}
     result = output.result.model_dump()
     assert (result["colours"], result["size"], result["scale"]) == ("own", 96, 1.0)
     assert (result["seen_share"], result["mirrored_share"]) == (0.0, 0.0)
-    texture = np.asarray(Image.open(io.BytesIO(output.artifacts["texture.png"])))
+    texture = np.asarray(Image.open(io.BytesIO(output.files["texture.png"])))
     assert texture.shape == (96, 96, 3)
     assert set(np.unique(texture)) == {0, 131}
-    assert Image.open(io.BytesIO(output.artifacts["atlas.png"])).mode == "RGBA"
-    glb = read_glb(output.artifacts["body_textured.glb"])
+    assert Image.open(io.BytesIO(output.files["atlas.png"])).mode == "RGBA"
+    glb = read_glb(output.files["body_textured.glb"])
     assert glb.document.get("extensionsUsed", []) == extensions
     view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"]]
     start = view["byteOffset"]
     stored = glb.binary[start : start + view["byteLength"]]
-    assert stored == output.artifacts["texture.png"]
+    assert stored == output.files["texture.png"]
 
 
 @pytest.mark.parametrize("content", [png(96, 96)[:-40], png(96, 64), b"\x89PNG\r\n\x1a\n"])
@@ -260,7 +260,7 @@ def test_a_clip_moves_the_body_by_the_joints_and_the_axis_that_are_told():
     assert (result["source"], result["up"]) == ("BVH with the names of CMU", "y")
     assert result["frames"] == 3
     assert [warning["code"] for warning in result["warnings"]] == ["bvh-irregular"]
-    assert set(output.artifacts) == {
+    assert set(output.files) == {
         "animation.png",
         "animation.webp",
         "body_animated.glb",

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.requests import FitOptions
+from api_schemas.fit import FitRequest
 from fitter.detection import weights
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
@@ -24,11 +24,11 @@ def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
 
 
 def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Path):
-    options = FitOptions.model_validate_json(
-        '{"gender": "male", "points": {}, "complete_points": true}'
+    options = FitRequest.model_validate_json(
+        '{"gender": "male", "views": [{"points": {}, "complete_points": true}]}'
     )
     job = PipelineInput(
-        options=options,
+        request=options,
         pictures=(SentPicture(load_sample().image, None),),
         max_pixels=1_000_000,
         detector=tmp_path,
@@ -36,7 +36,7 @@ def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Pat
     with pytest.raises(UnusableInputError) as caught:
         pipeline.run(job, lambda _: None)
     told = caught.value.error
-    assert (told.field, told.code) == ("points", "detector-not-installed")
+    assert (told.field, told.code) == ("views.0.points", "detector-not-installed")
     assert "pip install" in told.remedy
 
 

@@ -8,19 +8,22 @@ from PIL import Image, ImageChops, ImageStat
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.checks import CheckRequest
-from api_schemas.known import UncertainMeasurement
+from api_schemas.fit import FitRequest
+from api_schemas.initial_poses import ImageSize, InitialPoseRequest
+from api_schemas.person import UncertainMeasurement
+from api_schemas.picture import Limb
 from api_schemas.points import Point, PointSource
 from api_schemas.proposals import PointsRequest
-from api_schemas.requests import Limb
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, jpeg, points
 from service.estimates.questions import BodyTask, InitialPoseTask
 from service.numerics.tasks import ProblemError
-from service.submissions.submission import check_fit
 from service.worker.pipeline_port import UnusableInputError
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
+
+SAMPLE = FitRequest.model_validate_json(load_sample().request)
 
 
 def answer(**known: object):
@@ -66,10 +69,12 @@ def test_what_nobody_is_is_refused_where_it_was_said(known, field, code):
 
 
 def sample_pose(*, exif_focal_length_35mm: float | None = None, **changes: object):
-    sample = load_sample()
-    options = check_fit(
-        request=sample.request, image=sample.image, mask=None, max_pixels=1_000_000
-    ).options.model_copy(update=changes)
+    options = InitialPoseRequest(
+        gender=SAMPLE.gender,
+        height_m=SAMPLE.height_m,
+        points=SAMPLE.views[0].given_points,
+        image_size=ImageSize(width=720, height=960),
+    ).model_copy(update=changes)
     task = InitialPoseTask(
         subject=options, width=720, height=960, exif_focal_length_35mm=exif_focal_length_35mm
     )
@@ -191,9 +196,7 @@ def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_le
 
 
 def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_path):
-    points = check_fit(
-        request=load_sample().request, image=load_sample().image, mask=None, max_pixels=1_000_000
-    ).options.points
+    points = SAMPLE.views[0].given_points
     found = checked_sample(detector=tmp_path, points=points, view=ViewKind.FRONT)
     assert (found.findings, found.box, found.seen_from) == ((), None, SeenFrom.FRONT)
     assert {each.code for each in found.not_checked} == {

@@ -1,15 +1,12 @@
 """What a fit has found is told in the words of the wire, of one picture as of several."""
 
-import json
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from api_schemas import requests as wire_request
 from api_schemas import results as wire
-from api_schemas.scans import ScanResult
 from fitter import request as fitter_request
 from fitter import result as fitter_result
 from fitter.capture.finding import Code, Finding
@@ -19,9 +16,9 @@ from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
-from fitter.vocabulary.choices import LightKind, ViewKind
+from fitter.vocabulary.choices import Facing, LightKind, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource, Severity, StanceKind
-from service.worker.fit_results import fit_result, scan_result
+from service.worker.fit_results import fit_result
 
 PARTS = ("pelvis", "spine")
 
@@ -143,22 +140,31 @@ def test_a_result_survives_the_wire(light):
 
 def test_a_result_says_the_same_in_both_languages():
     translated = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
-    assert [part.part for part in translated.body.pose] == list(PARTS)
-    assert translated.body.pose[1].rotation == (0.0, -0.5, 0.0)
-    assert translated.body.shape == (1.0, -2.0)
-    assert translated.body.translation_m == (0.0, 0.1, 3.0)
-    assert translated.image_camera.width == 128
-    assert translated.image_camera.focal_length_px == 1000.0
-    assert translated.light is not None
-    assert translated.light.azimuth_deg == pytest.approx(30.0)
-    assert translated.light.distance_m == 2.0
-    assert translated.reflectance is not None
-    assert translated.reflectance.mean_albedo == pytest.approx(0.4)
+    (view,) = translated.views
+    assert [part.part for part in view.body.pose] == list(PARTS)
+    assert view.body.pose[1].rotation == (0.0, -0.5, 0.0)
+    assert translated.shape == view.body.shape == (1.0, -2.0)
+    assert view.body.translation_m == (0.0, 0.1, 3.0)
+    assert view.image_camera.width == 128
+    assert view.image_camera.focal_length_px == 1000.0
+    assert view.light is not None
+    assert view.light.azimuth_deg == pytest.approx(30.0)
+    assert view.light.distance_m == 2.0
+    assert view.reflectance is not None
+    assert view.reflectance.mean_albedo == pytest.approx(0.4)
+    assert view.limb_facing[0].facing is Facing.AWAY
     assert translated.outcome_explanation == "The energy stopped decreasing."
     assert translated.stages[0].energies == {"silhouette": 2.5}
-    assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
-    assert [each.value for each in translated.assumptions] == [50.0, 1.65]
-    assert [each.code for each in translated.warnings] == ["a-warning", "of-the-fit"]
+    assert translated.agreement is None
+
+
+def test_what_is_said_of_a_picture_stands_with_it():
+    translated = fit_result(result(light=None), part_names=PARTS)
+    (view,) = translated.views
+    assert [each.value for each in view.assumptions] == [50.0]
+    assert [each.value for each in translated.assumptions] == [1.65]
+    assert [each.code for each in view.warnings] == ["a-warning"]
+    assert [each.code for each in translated.warnings] == ["of-the-fit"]
 
 
 @pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
@@ -174,19 +180,22 @@ def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
     )
 
 
-def test_results_of_earlier_versions_have_no_verdict_and_are_read():
-    document = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
-    del document["verdict"]
-    read = wire.FitResult.model_validate_json(json.dumps(document))
-    assert read.verdict is wire.Verdict.PLAUSIBLE
-
-
 def test_a_result_says_which_measurements_were_given():
     given = fit_result(result(light=None), part_names=PARTS)
     assert [each.given for each in given.measurements] == [True]
     assert [each.given for each in given.stages[0].measurements] == [True]
     free = fit_result(replace(result(light=None), given=()), part_names=PARTS)
     assert [each.given for each in free.measurements] == [False]
+
+
+def test_a_measurement_has_the_interval_that_holds_95_of_100():
+    found = result(light=None)
+    (weight,) = found.measurements
+    uncertain = replace(found, measurements=(replace(weight, standard_error=2.0),))
+    (told,) = fit_result(uncertain, part_names=PARTS).measurements
+    assert (told.low, told.high) == (66.08, 73.92)
+    (unknown,) = fit_result(found, part_names=PARTS).measurements
+    assert (unknown.low, unknown.high) == (None, None)
 
 
 def test_the_tilt_is_told_with_both_cameras_and_the_stance():
@@ -199,32 +208,22 @@ def test_the_tilt_is_told_with_both_cameras_and_the_stance():
     fitted = result(light=None)
     found = replace(fitted.found, person=replace(fitted.person, tilt=tilt))
     translated = fit_result(found_otherwise(fitted, found), part_names=PARTS)
-    for camera in (translated.camera, translated.image_camera):
+    (view,) = translated.views
+    for camera in (view.camera, view.image_camera):
         assert camera.pitch_deg == pytest.approx(-8.0)
         assert camera.pitch_standard_error_deg == pytest.approx(2.0)
         assert camera.roll_deg == pytest.approx(1.5)
         assert camera.roll_standard_error_deg == pytest.approx(1.0)
-    assert translated.stance is not None
-    assert translated.stance.kind is wire.StanceKind.STRIDING
-    assert translated.stance.probabilities[wire.StanceKind.STANDING] == 0.2
+    assert view.stance is not None
+    assert view.stance.kind is StanceKind.STRIDING
+    assert view.stance.probabilities[StanceKind.STANDING] == 0.2
     assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
 
 
-def test_a_result_of_before_the_tilt_can_be_read():
-    old = fit_result(result(light=None), part_names=PARTS).model_dump(mode="json")
-    del old["stance"]
-    for camera in (old["camera"], old["image_camera"]):
-        for field in [name for name in camera if name.startswith(("pitch", "roll"))]:
-            del camera[field]
-    read = wire.FitResult.model_validate_json(json.dumps(old))
-    assert read.stance is None
-    assert read.camera.pitch_deg is None
-
-
 def test_a_directional_light_has_no_distance():
-    translated = fit_result(result(light=SUN), part_names=PARTS)
-    assert translated.light is not None
-    assert translated.light.distance_m is None
+    (view,) = fit_result(result(light=SUN), part_names=PARTS).views
+    assert view.light is not None
+    assert view.light.distance_m is None
 
 
 def test_a_pose_of_another_number_of_parts_is_not_passed_over():
@@ -232,7 +231,7 @@ def test_a_pose_of_another_number_of_parts_is_not_passed_over():
         fit_result(result(light=None), part_names=("pelvis",))
 
 
-def scanned(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
+def several(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
     """Two pictures, of which the second contradicts the person."""
     one = result(light=light)
     (front,), (stage,) = one.views, one.stages
@@ -250,45 +249,20 @@ def scanned(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
     return replace(one, views=views, stages=(replace(stage, bodies=2 * stage.bodies),), alone=alone)
 
 
-def test_a_scan_says_of_every_picture_what_a_fit_says_of_its_own():
-    given = scanned()
-    translated = scan_result(given, part_names=PARTS)
-    assert ScanResult.model_validate_json(translated.model_dump_json()) == translated
-    alone = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+def test_of_every_picture_is_said_what_is_said_of_the_only_one():
+    translated = fit_result(several(), part_names=PARTS)
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+    (alone,) = fit_result(result(light=POINT_LIGHT), part_names=PARTS).views
     first, second = translated.views
-    assert (first.number, first.view, second.number, second.view) == (0, "front", 1, "side")
-    for name in wire.ViewResult.model_fields:
-        assert getattr(first, name) == getattr(alone, name), name
-    assert second.silhouette_overlap == 0.4
+    assert first == alone.model_copy(update={"view": ViewKind.FRONT})
+    assert (second.view, second.silhouette_overlap) == ("side", 0.4)
     assert [each.code for each in second.findings] == ["contradicted", "too-dark"]
-    assert [each.code for each in second.warnings] == ["a-warning"]
-    assert [each.code for each in translated.warnings] == ["of-the-fit"]
+    assert [each.body for each in translated.stages[0].views] == [alone.body] * 2
+    assert translated.agreement == 0.4
 
 
-def test_a_scan_says_of_the_person_what_a_fit_says():
-    translated = scan_result(scanned(), part_names=PARTS)
-    alone = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
-    for name in set(wire.PersonResult.model_fields) - {"assumptions", "warnings"}:
-        assert getattr(translated, name) == getattr(alone, name), name
-    (stage,), (of_fit,) = translated.stages, alone.stages
-    for name in wire.StageResult.model_fields:
-        assert getattr(stage, name) == getattr(of_fit, name), name
-    assert [each.body for each in stage.views] == [of_fit.body] * 2
-
-
-def test_the_worst_view_is_the_scans_verdict_with_its_reason():
-    translated = scan_result(scanned(), part_names=PARTS)
+def test_the_worst_view_gives_the_verdict_and_its_reason():
+    translated = fit_result(several(), part_names=PARTS)
     assert [each.verdict for each in translated.views] == ["plausible", "implausible"]
     assert translated.verdict == "implausible"
-    assert translated.outcome_explanation == translated.views[1].outcome_explanation
-
-
-def test_a_fit_of_no_announced_view_is_told_to_workers_of_version_1_0_in_their_words():
-    plain = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
-    assert not {"view", "findings"} & plain.keys()
-    given = scanned(light=None)
-    announced = fit_result(
-        replace(given, views=given.views[1:], stages=(), alone=None), part_names=PARTS
-    )
-    assert (announced.view, announced.findings[0].code) == ("side", "contradicted")
-    assert wire.FitResult.model_validate_json(announced.model_dump_json()) == announced
+    assert "It is a circle." in translated.outcome_explanation

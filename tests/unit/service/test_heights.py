@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import pytest
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from api_schemas import bodies, checks, initial_poses, known, requests, scans
+from api_schemas import bodies, checks, fit, initial_poses, person
 from api_schemas.body_models import BodyModels
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from service.api.openapi import complete_openapi
 from service.submissions.validation import field_problems
 
-MODULES = (bodies, checks, initial_poses, known, requests, scans)
+MODULES = (bodies, checks, fit, initial_poses)
 
 
 def requests_with_a_height() -> Iterator[type[BaseModel]]:
@@ -36,9 +36,9 @@ def fault_of(kind: type[BaseModel], height_m: float) -> list[tuple[str, str]]:
     return []
 
 
-def test_fits_scans_bodies_poses_and_checks_name_heights():
+def test_fits_bodies_poses_and_checks_name_heights():
     assert {kind.__name__ for kind in requests_with_a_height()} >= {
-        "BodyRequest", "CheckRequest", "FitOptions", "InitialPoseRequest", "ScanOptions",
+        "BodyRequest", "CheckRequest", "FitRequest", "InitialPoseRequest",
     }  # fmt: skip
 
 
@@ -65,5 +65,5 @@ def test_the_range_is_that_of_body_models_and_that_of_the_contract():
     limits = document["x-limits"]["height_m"]
     assert (stated.min_height_m, stated.max_height_m) == range_m
     assert (limits["least"], limits["most"]) == range_m
-    schema = TypeAdapter(known.HeightM).json_schema()
+    schema = TypeAdapter(person.HeightM).json_schema()
     assert (schema["minimum"], schema["maximum"]) == range_m

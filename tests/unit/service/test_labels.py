@@ -6,8 +6,8 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.derivations import DerivationRequest
+from api_schemas.fit import FitRequest
 from api_schemas.labels import LONGEST, LabelOfList
-from api_schemas.requests import FitRequest
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 

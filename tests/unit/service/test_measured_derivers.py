@@ -51,7 +51,7 @@ def test_a_size_follows_from_a_chart_in_the_request_or_beside_it():
 
 def test_the_table_of_sizes_says_what_the_result_does():
     output = derived(kind="size", chart_csv=CHART_CSV)
-    table = list(csv.DictReader(io.StringIO(output.artifacts["sizes.csv"].decode())))
+    table = list(csv.DictReader(io.StringIO(output.files["sizes.csv"].decode())))
     sizes = output.result.model_dump()["sizes"]
     assert [each["label"] for each in table] == ["S", "M", "L"]
     assert [float(each["probability"]) for each in table] == [each["probability"] for each in sizes]
@@ -94,7 +94,7 @@ def test_body_fat_says_why_it_is_withheld_for_the_young():
 
 @pytest.mark.parametrize("kind", ["size", "body_composition"])
 def test_nothing_follows_from_measurements_that_are_withheld(kind):
-    withheld = fit_result(light=None, reflectance=None, measurements=())
+    withheld = fit_result(measurements=())
     files = {RESULT: withheld.model_dump_json().encode()}
     with pytest.raises(UnusableInputError) as caught:
         derived(kind=kind, files=files, **NEEDED.get(kind, {}))

@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 
-from api_schemas.requests import FitOptions
-from api_schemas.scans import ScanOptions
+from api_schemas import fit as wire
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.request import Click, FitRequest, KnownMeasurement
@@ -32,13 +31,12 @@ SIDE: dict[str, Any] = {
     "complete_points": True,
     "focal_length_35mm": 26,
 }
-FIT, SCAN = PERSON | FRONT, PERSON | {"views": [FRONT, SIDE]}
 
 
 def job(*, pictures: int = 2) -> PipelineInput:
-    kind, asked = (FitOptions, FIT) if pictures == 1 else (ScanOptions, SCAN)
+    words = PERSON | {"views": [FRONT, SIDE][:pictures]}
     return PipelineInput(
-        options=kind.model_validate_json(json.dumps(asked)),
+        request=wire.FitRequest.model_validate_json(json.dumps(words)),
         pictures=tuple(SentPicture(bytes([number]), None) for number in range(pictures)),
         max_pixels=7,
     )
@@ -108,7 +106,6 @@ def test_a_detector_that_is_missing_is_told_of_the_first_picture_that_needs_it(m
     fault = DetectorUnavailableError(reason="None.", remedy="Click.")
     error = told(monkeypatch, fault, job())
     assert (error.field, error.code) == ("views.1.points", "detector-not-installed")
-    assert told(monkeypatch, fault, job(pictures=1)).field == "points"
 
 
 def test_progress_names_the_view_it_is_of(monkeypatch):

@@ -2,8 +2,8 @@
 
 import pytest
 
+from api_schemas.fit import FitRequest
 from api_schemas.problems import PROBLEM_TYPES
-from api_schemas.requests import FitRequest
 from service.api.problem_samples import PROBLEM_SAMPLES
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.api.artifacts import ByteRange, parse_range
+from service.api.files import ByteRange, parse_range
 
 
 @pytest.mark.parametrize(

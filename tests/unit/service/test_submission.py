@@ -3,10 +3,14 @@ import sys
 
 import pytest
 
-from api_schemas.points import Point
+from api_schemas.fit import FitRequest
+from api_schemas.picture import ViewRequest
+from api_schemas.points import AUTO, Point
 from fitter.vocabulary.points import POINT_NAMES
+from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError
-from service.submissions.submission import CheckedSubmission, check_fit
+from service.submissions.submission import CheckedSubmission, check_submission
+from service.submissions.validation import parsed
 from tests.heif_files import Item, heif, size
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -35,13 +39,25 @@ def check(
     mask: bytes | None = None,
     **changes: object,
 ) -> CheckedSubmission:
-    whole = {"gender": "male", "height_m": 1.8, "points": POINTS} | changes
-    return check_fit(
-        request=request if isinstance(request, bytes) else json.dumps(request or whole).encode(),
-        image=scripted_image() if image is None else image,
-        mask=mask,
+    of_view = {name: each for name, each in changes.items() if name in ViewRequest.model_fields}
+    of_person = {name: each for name, each in changes.items() if name not in of_view}
+    whole = {
+        "gender": "male",
+        "height_m": 1.8,
+        **of_person,
+        "views": [{"points": POINTS, **of_view}],
+    }
+    text = request if isinstance(request, bytes) else json.dumps(request or whole).encode()
+    return check_submission(
+        parsed(FitRequest, text, whole="request", called="the part 'request'"),
+        [SentPicture(scripted_image() if image is None else image, mask)],
         max_pixels=1_000_000,
     )
+
+
+def points_of(checked: CheckedSubmission) -> object:
+    (view,) = checked.request.views
+    return view.points
 
 
 def refusal(*args, **kwargs) -> tuple[int, str | None, str]:
@@ -54,32 +70,33 @@ def refusal(*args, **kwargs) -> tuple[int, str | None, str]:
 
 
 def test_points_come_out_named_and_in_full():
-    points = check().options.points
+    points = points_of(check())
     assert isinstance(points, dict)
     assert points["left_shoulder"] == Point(x=200.0, y=100.0, visibility=2)
 
 
-def test_auto_is_understood_as_no_points_and_all_to_be_proposed():
-    options = check(points="auto").options
-    assert (options.points, options.complete_points) == ({}, True)
-    assert check().options.complete_points is False
+def test_auto_stays_the_word_that_has_all_points_proposed():
+    (view,) = check(points="auto").request.views
+    assert (view.points, view.are_points_completed) == (AUTO, True)
+    (clicked,) = check().request.views
+    assert not clicked.are_points_completed
 
 
 def test_points_to_be_completed_may_be_few_but_not_beyond_the_picture():
     knee = {"left_knee": [182, 350]}
-    assert refusal(points=knee) == (422, "points", "too-few-points")
-    options = check(points=knee, complete_points=True).options
-    assert set(options.points) == {"left_knee"}
-    assert options.complete_points
-    assert check(points={}, complete_points=True).options.points == {}
+    assert refusal(points=knee) == (422, "views.0.points", "too-few-points")
+    (view,) = check(points=knee, complete_points=True).request.views
+    assert set(view.points) == {"left_knee"}
+    assert view.complete_points
+    assert points_of(check(points={}, complete_points=True)) == {}
     outside = refusal(points={"left_knee": [182, 481]}, complete_points=True)
-    assert outside == (422, "points.left_knee", "point-outside-image")
-    assert refusal(points="all") == (422, "points", "unknown-value")
+    assert outside == (422, "views.0.points.left_knee", "point-outside-image")
+    assert refusal(points="all") == (422, "views.0.points", "unknown-value")
 
 
 def test_checking_twice_changes_nothing():
-    once = check().options
-    again = check(once.model_dump_json().encode()).options
+    once = check().request
+    again = check(once.model_dump_json().encode()).request
     assert again == once
 
 
@@ -129,6 +146,7 @@ def test_checking_twice_changes_nothing():
         ({"cues": "S"}, "cues", "unknown-value"),
         ({"cues": "SE", "paper": {"energies": ["shading"]}}, "paper.energies", "wrong-length"),
         ({"clothing": "baggy"}, "clothing", "unknown-value"),
+        ({"clothing": {"upper": "baggy"}}, "clothing.upper", "unknown-value"),
         ({"limb_facing": {"left_forearm": "up"}}, "limb_facing.left_forearm", "unknown-value"),
         ({"limb_facing": {"tail": "away"}}, "limb_facing.tail", "unknown-value"),
     ],
@@ -137,7 +155,8 @@ def test_a_bad_option_is_refused_naming_field_and_code(changes, field, code):
     status, named, named_code = refusal(**changes)
     assert status == 422
     assert named is not None
-    assert named.startswith(field)
+    of_view = field.partition(".")[0] in ViewRequest.model_fields
+    assert named.startswith(f"views.0.{field}" if of_view else field)
     assert named_code == code
 
 
@@ -145,7 +164,7 @@ def test_a_misspelt_point_is_one_fault_that_offers_every_name():
     with pytest.raises(RefusedError) as caught:
         check(points=POINTS | {"left_sholder": [1, 1]})
     (error,) = caught.value.problem.errors
-    assert error.field == "points.left_sholder"
+    assert error.field == "views.0.points.left_sholder"
     assert all(f"'{name}'" in error.remedy for name in POINT_NAMES)
 
 
@@ -163,7 +182,7 @@ def test_remedies_say_what_to_send():
 
 @pytest.mark.parametrize(("cues", "energies"), [("SES", ["shading"]), ("SE", ["shading", "edges"])])
 def test_the_papers_method_is_accepted_where_a_term_counts(cues: str, energies: list[str]):
-    paper = check(cues=cues, paper={"energies": energies}).options.paper
+    paper = check(cues=cues, paper={"energies": energies}).request.paper
     assert paper is not None
     assert list(paper.energies) == energies
 
@@ -177,11 +196,11 @@ def test_all_faults_are_told_at_once():
 def test_an_absent_point_does_not_count():
     points = dict(list(POINTS.items())[:4])
     points["left_hip"] = {"x": 180, "y": 250, "visibility": 0}
-    assert refusal(points=points) == (422, "points", "too-few-points")
+    assert refusal(points=points) == (422, "views.0.points", "too-few-points")
 
 
 def test_a_point_on_the_very_edge_is_inside():
-    points = check(points=POINTS | {"nose": [640, 480]}).options.points
+    points = points_of(check(points=POINTS | {"nose": [640, 480]}))
     assert "nose" in points
 
 
@@ -200,31 +219,39 @@ def test_text_that_is_not_json_is_malformed():
     ],
 )
 def test_a_bad_picture_is_refused(field, content, status, code):
-    assert refusal(**{field: content}) == (status, field, code)
+    assert refusal(**{field: content}) == (status, f"views.0.{field}", code)
 
 
 def test_a_heic_is_accepted_by_its_head():
     checked = check(image=heif(Item(b"hvc1", b"", (size(300, 400),))))
     assert {name: file.media_type for name, file in checked.files.items()} == {
-        "image": "image/heic"
+        "views/0/image": "image/heic"
     }
 
 
 def test_a_heic_with_too_many_pixels_is_refused():
     content = heif(Item(b"hvc1", b"", (size(3_000, 4_000),)))
-    assert refusal(image=content) == (422, "image", "image-too-large")
+    assert refusal(image=content) == (422, "views.0.image", "image-too-large")
 
 
 def test_a_heic_is_refused_where_none_are_decoded(monkeypatch):
     monkeypatch.setitem(sys.modules, "pi_heif", None)
     content = heif(Item(b"hvc1", b"", (size(300, 400),)))
-    assert refusal(image=content) == (415, "image", "heic-not-installed")
+    assert refusal(image=content) == (415, "views.0.image", "heic-not-installed")
 
 
 def test_a_mask_of_another_size_is_refused():
     mask = scripted_image(width=639)
-    assert refusal(mask=mask) == (422, "mask", "mask-size-mismatch")
+    assert refusal(mask=mask) == (422, "views.0.mask", "mask-size-mismatch")
 
 
 def test_a_mask_of_the_same_size_is_accepted():
-    assert check(mask=scripted_image()).files["mask"].media_type == "image/png"
+    assert check(mask=scripted_image()).files["views/0/mask"].media_type == "image/png"
+
+
+def test_there_are_as_many_views_as_pictures():
+    asked = FitRequest.model_validate_json('{"gender": "male"}')
+    pictures = [SentPicture(scripted_image({"n": number}), None) for number in range(2)]
+    with pytest.raises(RefusedError) as caught:
+        check_submission(asked, pictures, max_pixels=1_000_000)
+    assert (caught.value.problem.field, caught.value.problem.code) == ("views", "views-count")

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import pytest
 from pydantic import TypeAdapter
 
+from api_schemas.fit import FitRequest
 from api_schemas.points import Point, Points, PointsFormat, named_points
-from api_schemas.requests import FitOptions
 from fitter import request as fitter_request
 from fitter.detection.landmark_meanings import SPREAD_EXPONENT, spread_m
 from fitter.errors import InvalidInputError
@@ -18,22 +18,30 @@ from service.worker import translate
 
 PARTS = ("pelvis", "spine")
 
-REQUEST = """{
-  "gender": "female", "height_m": 1.65, "focal_length_35mm": 35, "cues": "SE",
-  "optimizer": "simplex", "clothing": "loose",
-  "points": {"nose": [10, 20], "left_knee": {"x": 30, "y": 40, "visibility": 1},
-             "left_ankle": [1, 2, 0]},
-  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45},
-  "limb_facing": {"left_forearm": "toward"}
-}"""
+PERSON = {"gender": "female", "height_m": 1.65, "cues": "SE", "optimizer": "simplex"}
+VIEW = {
+    "focal_length_35mm": 35,
+    "clothing": "loose",
+    "points": {
+        "nose": [10, 20],
+        "left_knee": {"x": 30, "y": 40, "visibility": 1},
+        "left_ankle": [1, 2, 0],
+    },
+    "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45},
+    "limb_facing": {"left_forearm": "toward"},
+}
 
 
 NO_PICTURE = (SentPicture(b"", None),)
 
 
+def asked(said_of_view: Mapping[str, object], **said: object) -> FitRequest:
+    words = PERSON | said | {"views": [VIEW | said_of_view]}
+    return FitRequest.model_validate_json(json.dumps(words))
+
+
 def fit_request() -> fitter_request.FitRequest:
-    options = FitOptions.model_validate_json(REQUEST)
-    return translate.fit_request(options, (SentPicture(b"image", b"mask"),), max_pixels=7)
+    return translate.fit_request(asked({}), (SentPicture(b"image", b"mask"),), max_pixels=7)
 
 
 def test_a_request_says_the_same_in_both_languages():
@@ -54,9 +62,7 @@ def test_a_request_says_the_same_in_both_languages():
 
 
 def test_clothing_may_be_said_of_a_region_alone():
-    words = json.loads(REQUEST) | {"clothing_by_region": {"upper": "loose"}}
-    options = FitOptions.model_validate_json(json.dumps(words))
-    (view,) = translate.fit_request(options, NO_PICTURE, max_pixels=7).views
+    (view,) = translated(clothing={"upper": "loose"}).views
     assert view.clothing == fitter_request.SaidClothing(
         upper=fitter_request.Clothing.LOOSE, lower=fitter_request.Clothing.AUTO
     )
@@ -64,16 +70,13 @@ def test_clothing_may_be_said_of_a_region_alone():
 
 def test_the_papers_own_method_is_passed_on_where_it_is_asked_for():
     assert fit_request().choices.paper is None
-    words = json.loads(REQUEST) | {"paper": {"energies": ["edges"], "free_height": True}}
-    options = FitOptions.model_validate_json(json.dumps(words))
-    asked = translate.fit_request(options, NO_PICTURE, max_pixels=7).choices.paper
-    assert asked == fitter_request.Paper(energies=frozenset({PaperEnergy.EDGES}), free_height=True)
-    assert "paper" not in json.loads(FitOptions.model_validate_json(REQUEST).model_dump_json())
+    words = asked({}, paper={"energies": ["edges"], "free_height": True})
+    paper = translate.fit_request(words, NO_PICTURE, max_pixels=7).choices.paper
+    assert paper == fitter_request.Paper(energies=frozenset({PaperEnergy.EDGES}), free_height=True)
 
 
 def known(**fields: object) -> dict[str, fitter_request.KnownMeasurement]:
-    options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
-    request = translate.fit_request(options, NO_PICTURE, max_pixels=7)
+    request = translate.fit_request(asked({}, **fields), NO_PICTURE, max_pixels=7)
     return dict(request.person.measurements)
 
 
@@ -97,8 +100,7 @@ def test_a_guessed_point_is_occluded_and_an_absent_one_is_left_out():
 
 
 def translated(**fields: object) -> fitter_request.FitRequest:
-    options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
-    return translate.fit_request(options, NO_PICTURE, max_pixels=7)
+    return translate.fit_request(asked(fields), NO_PICTURE, max_pixels=7)
 
 
 def clicks_of(**fields: object) -> Mapping[str, fitter_request.Click]:
@@ -167,9 +169,10 @@ def test_degrees_become_radians():
 
 
 def test_what_the_caller_leaves_open_stays_open():
-    options = FitOptions.model_validate_json('{"gender": "male", "points": {"nose": [1, 1]}}')
-    request = translate.fit_request(options, NO_PICTURE, max_pixels=1)
+    words = FitRequest.model_validate_json('{"gender": "male"}')
+    request = translate.fit_request(words, NO_PICTURE, max_pixels=1)
     (view,) = request.views
+    assert (view.clicks, view.complete_clicks) == ({}, True)
     assert request.person.height_m is None
     assert view.focal_length_px is None
     assert view.light == fitter_request.LightGuess()
@@ -205,7 +208,7 @@ def test_progress_and_complaints_keep_their_words():
 
 def test_who_insists_says_so_in_both_languages():
     assert not fit_request().choices.force
-    assert translated(force=True).choices.force
+    assert translate.fit_request(asked({}, force=True), NO_PICTURE, max_pixels=1).choices.force
 
 
 def test_points_are_full_form_after_the_checks():

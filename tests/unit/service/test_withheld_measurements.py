@@ -5,7 +5,7 @@ from rich.console import Console
 from service.commands.terminal import print_result
 from tests.unit.service.fit_results import fit_result
 
-WITHHELD = {"measurements": [], "outcome": "poor_fit", "verdict": "implausible"}
+WITHHELD = {"measurements": [], "verdict": "implausible"}
 
 
 def test_the_command_line_says_how_to_have_them():

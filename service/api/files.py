@@ -1,72 +1,85 @@
-"""Responses with a result: its document, or a file in the preferred format, whole or in part.
+"""Responses with a file: as stored or in the preferred format, whole or in part.
 
 Parts are ranges of bytes (RFC 9110 14).
 """
 
-import hashlib
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Annotated, Any, Final
-from uuid import UUID
 
-from fastapi import Header, Path, Response
-from pydantic import BaseModel
+from fastapi import Depends, Header, Path, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.jobs import JobState
-from api_schemas.problems import Problem, problem
-from api_schemas.results import Artifact, ResultPart
+from api_schemas.problems import problem
 from service.api.context import ApiContext
-from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, find
 from service.api.json_bodies import JSON
 from service.api.problems import ProblemError, documented, not_found
-from service.api.renditions import Rendition, chosen_rendition, is_negotiated
+from service.api.renditions import JPEG, Rendition, is_negotiated
 from service.api.security_headers import STAND_ALONE
 from service.blobs import BlobMissingError
-from service.engine.port import JobRecord
-from service.engine.tenant_jobs import TenantJobs
-from service.jobs.inputs import RESULT
+from service.engine.port import StoredBlob
 from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL
-from service.representation.results import result_json
 
 HTML: Final = "text/html"
-BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
+PICTURES: Final = (JPEG, "image/png", "image/webp", "image/heic")
+"""The kinds of pictures that are accepted."""
 
-RangeHeader = Annotated[str | None, Header(alias="Range")]
-IfRange = Annotated[
-    str | None,
-    Header(description="The `ETag` of the file that `Range` is a part of: of another, the whole."),
-]
+BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
+NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
+    304: {"description": "Not changed since the given ETag."}
+}
+
+IfNoneMatch = Annotated[str | None, Header()]
 
 # OpenAPI ignores headers of this name: the responses' media types say enough.
 AcceptHeader = Annotated[str | None, Header(alias="Accept", include_in_schema=False)]
 
-ArtifactName = Annotated[
+
+@dataclass(frozen=True, slots=True)
+class FileHeaders:
+    """The headers that say how a file is wanted."""
+
+    accept: AcceptHeader = None
+    if_none_match: IfNoneMatch = None
+    range: Annotated[str | None, Header(alias="Range")] = None
+    if_range: Annotated[
+        str | None,
+        Header(
+            description="The `ETag` of the file that `Range` is a part of: of another, the whole."
+        ),
+    ] = None
+
+
+Wanted = Annotated[FileHeaders, Depends()]
+
+FileName = Annotated[
     str,
     Path(
         description=(
-            "A name of the job's `links.artifacts`. Where that is a `.glb`, the same stem with "
-            f"{', '.join(f'`.{ending}`' for ending in MESH_FORMATS)} is the mesh in that format "
+            "A name of `links.files`. Where that is a `.glb`, the same stem with "
+            f"{', '.join(f'`.{ending}`' for ending in MESH_FORMATS)} is the mesh in that format, "
             "written when it is asked for; of a textured one `.mtl` is the material of the OBJ. "
-            "`measurements.csv` is there with a fit."
+            "`measurements.csv` is there with a result."
         ),
     ),
 ]
 
 NEGOTIATION: Final = """
 
-A `.glb` is answered in the format that `Accept` wants most: GLB, OBJ, PLY or STL; GLB for
-`*/*`, for `application/octet-stream` and without the header, 406 where none of them is accepted.
-All other names ignore it. Whatever the format, metres with y up, and vertices and triangles in
-the body model's order (an STL has triangles alone). Of an animation the other formats show the
-first frame."""
+A `.glb` is answered in the format that `Accept` wants most: GLB, OBJ, PLY or STL; GLB for `*/*`,
+for `application/octet-stream` and without the header, 406 where none of them is accepted. Whatever
+the format, metres with y up, and vertices and triangles in the body model's order (an STL has
+triangles alone). A picture that was sent comes as a JPEG, upright and of the same size, where that
+is preferred: most browsers cannot show HEIC. All other names ignore the header."""
 
 
-def file_answers(*media_types: str) -> dict[int | str, dict[str, Any]]:
-    """Describe the answers to a request for a file: of these types, a mesh or JSON."""
+def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, dict[str, Any]]:
+    """Describe the answers to a request for a file: of these types, a mesh or JSON.
+
+    ``problems`` are those that may keep a caller from what has the file.
+    """
     meshes = (GLB, *(each.media_type for each in (*MESH_FORMATS.values(), MTL)))
     files = dict.fromkeys((*media_types, *meshes, CSV), BINARY)
     return (
@@ -82,84 +95,40 @@ def file_answers(*media_types: str) -> dict[int | str, dict[str, Any]]:
             },
         }
         | NOT_MODIFIED
-        | documented("not-acceptable", "range-not-satisfiable", *JOB_PROBLEMS)
+        | documented("not-acceptable", "range-not-satisfiable", "unusable-input", *problems)
     )
 
 
-async def answer_artifact(
-    context: ApiContext,
-    jobs: TenantJobs,
-    job_id: UUID,
-    name: str,
-    *,
-    accept: str | None,
-    range_header: str | None,
-    if_range: str | None,
-    if_none_match: str | None,
+async def answer_file(
+    context: ApiContext, rendition: Rendition, read: Callable[[StoredBlob], bytes], wanted: Wanted
 ) -> Response:
-    """Answer with a file of a job, or a part of it; 404 if there is no such file."""
-    record = await run_in_threadpool(find, jobs, job_id)
-    rendition = chosen_rendition(record, name, accept=accept)
-    headers = file_headers(rendition.tag)
-    if is_negotiated(name):
+    """Answer with a file, or a part of it; ``read`` reads what is stored."""
+    headers = {"ETag": f'"{rendition.tag}"', "Accept-Ranges": "bytes"}
+    if is_negotiated(rendition.name):
         headers["Vary"] = "Accept"
     if rendition.media_type == HTML:
         headers["Content-Security-Policy"] = STAND_ALONE
-    if is_known(rendition.tag, if_none_match):
+    if is_known(rendition.tag, wanted.if_none_match):
         return Response(status_code=304, headers=headers)
+    stored = await run_in_threadpool(read, rendition.source)
     return whole_or_part(
-        await _content(context, record, rendition),
+        await _converted(context, stored, rendition),
         media_type=rendition.media_type,
         headers=headers,
-        range_header=range_header,
-        if_range=if_range,
+        range_header=wanted.range,
+        if_range=wanted.if_range,
     )
 
 
-def serve_result(
-    context: ApiContext,
-    record: JobRecord,
-    *,
-    kind: type[BaseModel],
-    included: frozenset[ResultPart],
-    if_none_match: str | None,
+def answer_blob(
+    context: ApiContext, scope: str, blob: StoredBlob, if_none_match: str | None
 ) -> Response:
-    """Answer with the result document of this type; 409 if the job has none."""
-    document = next((each for each in record.artifacts if each.name == RESULT), None)
-    if record.state is not JobState.SUCCEEDED or document is None:
-        raise ProblemError(no_result(record))
-    content = result_json(stored_content(context, record, document), kind=kind, included=included)
-    tag = hashlib.sha256(content).hexdigest()
-    headers = {"ETag": f'"{tag}"'}
-    if is_known(tag, if_none_match):
+    """Answer with a stored document as it is."""
+    headers = {"ETag": f'"{blob.digest}"'}
+    if is_known(blob.digest, if_none_match):
         return Response(status_code=304, headers=headers)
-    return Response(content, media_type=document.media_type, headers=headers)
-
-
-def no_result(record: JobRecord) -> Problem:
-    """Say why a job has no result."""
-    if record.problem is not None:
-        return problem(
-            "no-result",
-            code=record.problem.code,
-            field=record.problem.field,
-            detail=f"The job {record.state}: {record.problem.detail}",
-            remedy=record.problem.remedy,
-        )
-    canceled = record.state is JobState.CANCELED
-    return problem(
-        "no-result",
-        detail=f"The job is {record.state}.",
-        remedy="Send it again." if canceled else "Wait until it has succeeded; follow its events.",
-    )
-
-
-def file_headers(tag: str) -> dict[str, str]:
-    """The headers that every file has."""
-    return {
-        "ETag": f'"{tag}"',
-        "Accept-Ranges": "bytes",
-    }
+    content = stored_content(context, scope, blob)
+    return Response(content, media_type=blob.media_type, headers=headers)
 
 
 def is_known(tag: str, if_none_match: str | None) -> bool:
@@ -167,21 +136,22 @@ def is_known(tag: str, if_none_match: str | None) -> bool:
     return if_none_match is not None and (f'"{tag}"' in if_none_match or if_none_match == "*")
 
 
-def stored_content(context: ApiContext, record: JobRecord, artifact: Artifact) -> bytes:
-    """Read a file of a job; 404 if it has been erased in the meantime."""
+def stored_content(context: ApiContext, scope: str, blob: StoredBlob) -> bytes:
+    """Read a file of a fit; 404 if it has been erased in the meantime."""
     try:
-        return context.blobs.get(record.id, artifact.sha256)
+        return context.blobs.get(scope, blob.digest)
     except BlobMissingError as error:
-        raise not_found(what="such job any more") from error
+        raise not_found(what="such fit any more") from error
 
 
-async def _content(context: ApiContext, record: JobRecord, rendition: Rendition) -> bytes:
-    stored = await run_in_threadpool(partial(stored_content, context, record, rendition.source))
+async def _converted(context: ApiContext, stored: bytes, rendition: Rendition) -> bytes:
     if rendition.mesh_format is not None:
         return await context.estimates.convert(stored, rendition.mesh_format)
-    if rendition.media_type == CSV and rendition.source.media_type != CSV:
-        return measurements_csv_of(stored)
-    return stored
+    if rendition.media_type == rendition.source.media_type:
+        return stored
+    if rendition.media_type == JPEG:
+        return await context.estimates.jpeg(stored)
+    return measurements_csv_of(stored)
 
 
 @dataclass(frozen=True, slots=True)

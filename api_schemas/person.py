@@ -1,4 +1,4 @@
-"""What a caller knows of a person's measures; the same in every request."""
+"""Who is in the pictures, as a caller says it: gender, height, weight, measurements."""
 
 from collections.abc import Mapping
 from typing import Annotated, Final, Self
@@ -6,11 +6,10 @@ from typing import Annotated, Final, Self
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
-from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
+from fitter.vocabulary.choices import Gender
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE, WEIGHT
 
 MAX_NAME_LENGTH: Final = 64
-
-WEIGHT: Final = "weight"
 
 _OTHER_UNITS: Final = (
     (0.01, "centimetres"),
@@ -87,14 +86,15 @@ KnownMeasurement = Annotated[
 ]
 
 
-class KnownMeasurements(WireModel):
-    """Height, weight, and whatever else was measured of the person.
+class Person(WireModel):
+    """Gender, height, weight, and whatever else was measured of the person.
 
     ``measurements`` are by the names, and in the units, of a result's measurements (MEASUREMENTS.md
     lists them). A number is held exactly; with a standard error the body is drawn toward it as far
     as it is certain.
     """
 
+    gender: Gender = Field(description="Which body model is fitted.")
     height_m: HeightM | None = None
     weight_kg: WeightKg | None = None
     measurements: dict[MeasurementName, KnownMeasurement] = Field(

@@ -6,8 +6,7 @@ from pathlib import PurePath
 from typing import Final
 
 from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.results import Artifact, FitResult
-from api_schemas.scans import ScanResult
+from api_schemas.results import FitResult, ResultFile
 from service.jobs.inputs import RESULT
 
 MEDIA_TYPES: Final[Mapping[str, str]] = {
@@ -21,9 +20,9 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
 }
 
 
-def describe_artifact(name: str, content: bytes, *, digest: str | None = None) -> Artifact:
+def describe_file(name: str, content: bytes, *, digest: str | None = None) -> ResultFile:
     """Describe a file by name, kind, size and content, whose digest may be known."""
-    return Artifact(
+    return ResultFile(
         name=name,
         media_type=MEDIA_TYPES[PurePath(name).suffix],
         size=len(content),
@@ -32,15 +31,9 @@ def describe_artifact(name: str, content: bytes, *, digest: str | None = None) -
 
 
 def with_result_document(
-    result: FitResult | ScanResult | DerivedFiles, artifacts: Mapping[str, bytes]
+    result: FitResult | DerivedFiles, files: Mapping[str, bytes]
 ) -> dict[str, bytes]:
     """Add ``result.json``, which lists all the other files."""
-    listed = result.model_copy(
-        update={
-            "artifacts": tuple(
-                describe_artifact(name, content) for name, content in sorted(artifacts.items())
-            )
-        }
-    )
-    document = listed.model_dump_json(indent=1).encode()
-    return dict(artifacts) | {RESULT: document}
+    listed = tuple(describe_file(name, content) for name, content in sorted(files.items()))
+    document = result.model_copy(update={"files": listed}).model_dump_json(indent=1).encode()
+    return {**files, RESULT: document}

@@ -1,4 +1,4 @@
-"""A scan's files as strangers read them: bodies over pictures, tapes around the mesh."""
+"""A fit's files as strangers read them: bodies over pictures, tapes around the mesh."""
 
 import json
 from pathlib import Path
@@ -23,13 +23,15 @@ LEVEL_TAPES = ("waist_girth_navel", "hip_girth")
 
 
 def result(files: Path) -> dict:
-    return json.loads((files / "scan" / "result.json").read_text())
+    return json.loads((files / "fit" / "result.json").read_text())
 
 
 def drawn(files: Path, number: int) -> np.ndarray:
     """Where trimesh has the body in a picture, painted by Pillow."""
     view = result(files)["views"][number]
-    scene = trimesh.load_scene(files / "scan" / f"body_posed_{number}.glb", process=False)
+    scene = trimesh.load_scene(
+        files / "fit" / "views" / str(number) / "body_posed.glb", process=False
+    )
     body = scene.to_mesh()
     body.apply_transform(np.linalg.inv(scene.graph.get("upright")[0]))
     camera = view["image_camera"]
@@ -50,8 +52,8 @@ def drawn(files: Path, number: int) -> np.ndarray:
 
 @pytest.mark.parametrize("number", VIEWS)
 def test_the_body_of_each_view_lies_over_its_own_picture(files: Path, number: int):
-    body = drawn(files, number)
-    segmented = np.asarray(Image.open(files / "scan" / f"segmentation_{number}.png").convert("L"))
+    body, folder = drawn(files, number), files / "fit" / "views" / str(number)
+    segmented = np.asarray(Image.open(folder / "segmentation.png").convert("L"))
     segmented = cv2.resize(segmented, body.shape[::-1], interpolation=cv2.INTER_NEAREST)
     assert overlap(body, segmented > 127) > OVERLAP
     other = drawn(files, 1 - number)
@@ -60,28 +62,28 @@ def test_the_body_of_each_view_lies_over_its_own_picture(files: Path, number: in
 
 @pytest.mark.parametrize("number", VIEWS)
 def test_both_readers_of_pictures_find_the_outline_over_the_photograph(files: Path, number: int):
-    folder = files / "scan"
-    sent = cv2.imread(str(folder / f"image_{number}"))
-    overlay = cv2.imread(str(folder / f"overlay_{number}.png"))
+    folder = files / "fit" / "views" / str(number)
+    sent = cv2.imread(str(folder / "image"))
+    overlay = cv2.imread(str(folder / "overlay.png"))
     assert sent is not None
     assert overlay is not None
     assert overlay.shape == sent.shape
-    pillow = np.asarray(Image.open(folder / f"overlay_{number}.png").convert("RGB"))
+    pillow = np.asarray(Image.open(folder / "overlay.png").convert("RGB"))
     np.testing.assert_array_equal(pillow[:, :, ::-1], overlay)
     changed = (np.abs(overlay.astype(int) - sent.astype(int)) > 40).any(axis=2)
     assert 0.0005 < changed.mean() < 0.2, "an outline, and no other picture"
 
 
 def test_the_preview_opens(files: Path):
-    with Image.open(files / "scan" / "scan.png") as picture:
+    with Image.open(files / "fit" / "body.png") as picture:
         picture.load()
         assert min(picture.size) > 200
 
 
 def test_every_tape_is_where_the_stranger_s_mesh_is(files: Path):
-    mesh = trimesh.load_mesh(files / "scan" / "body_canonical.glb", process=False)
+    mesh = trimesh.load_mesh(files / "fit" / "body_canonical.glb", process=False)
     low, high = mesh.bounds
-    lines = json.loads((files / "scan" / "tapes.json").read_text())["lines"]
+    lines = json.loads((files / "fit" / "tapes.json").read_text())["lines"]
     measured = {each["name"] for each in result(files)["measurements"]}
     assert measured - {"weight"} <= set(lines)
     for name, line in lines.items():
@@ -92,8 +94,8 @@ def test_every_tape_is_where_the_stranger_s_mesh_is(files: Path):
 
 @pytest.mark.parametrize("name", LEVEL_TAPES)
 def test_a_stranger_who_cuts_the_mesh_measures_the_same_girth(files: Path, name: str):
-    mesh = trimesh.load_mesh(files / "scan" / "body_canonical.glb", process=False)
-    tape = np.array(json.loads((files / "scan" / "tapes.json").read_text())["lines"][name])
+    mesh = trimesh.load_mesh(files / "fit" / "body_canonical.glb", process=False)
+    tape = np.array(json.loads((files / "fit" / "tapes.json").read_text())["lines"][name])
     assert np.ptp(tape[:, 1]) < 1e-3, "the tape is level"
     cut = trimesh.intersections.mesh_plane(mesh, [0.0, 1.0, 0.0], [0.0, tape[:, 1].mean(), 0.0])
     points = cut.reshape(-1, 3)[:, [0, 2]]
@@ -104,8 +106,8 @@ def test_a_stranger_who_cuts_the_mesh_measures_the_same_girth(files: Path, name:
     assert 100.0 * trunk.area == pytest.approx(value, rel=0.005)
 
 
-def test_the_scan_weighs_what_a_stranger_s_volume_says(files: Path):
-    mesh = trimesh.load_mesh(files / "scan" / "body_canonical.glb", process=False)
+def test_the_body_weighs_what_a_stranger_s_volume_says(files: Path):
+    mesh = trimesh.load_mesh(files / "fit" / "body_canonical.glb", process=False)
     assert mesh.is_watertight
     weight = {each["name"]: each["value"] for each in result(files)["measurements"]}["weight"]
     assert 1000.0 * mesh.volume == pytest.approx(weight, rel=1e-4)

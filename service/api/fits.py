@@ -1,0 +1,261 @@
+"""Fits: list, look at, follow, cancel and erase them; their requests, results and files."""
+
+import hashlib
+from functools import partial
+from typing import Annotated, Final
+from uuid import UUID
+
+from fastapi import APIRouter, Depends, Query, Response
+from fastapi.responses import StreamingResponse
+
+from api_schemas.fit import FitRequest
+from api_schemas.jobs import Fit, FitPage, JobState
+from api_schemas.labels import Label
+from api_schemas.problems import Problem, problem
+from api_schemas.results import FitResult, ResultPart
+from service.api.context import Context
+from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
+from service.api.files import (
+    NEGOTIATION,
+    NOT_MODIFIED,
+    PICTURES,
+    FileName,
+    IfNoneMatch,
+    Wanted,
+    answer_blob,
+    answer_file,
+    file_answers,
+    is_known,
+    stored_content,
+)
+from service.api.json_bodies import JSON, json_content
+from service.api.listing import (
+    Limit,
+    cursor_of,
+    cursor_pattern,
+    cursor_query,
+    page_of,
+    read_cursor,
+)
+from service.api.problems import ProblemError, documented, not_found
+from service.api.renditions import chosen_rendition
+from service.api.storage import erase_blobs
+from service.engine.port import JobRecord
+from service.engine.tenant_jobs import TenantJobs
+from service.jobs.inputs import RESULT
+from service.jobs.states import ACTIVE, TERMINAL
+from service.representation.jobs import FITS, POLL_AFTER_S, represent
+from service.representation.results import result_json
+
+ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
+
+CURSOR: Final = cursor_pattern("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}")
+"""When the last fit of a page was accepted, in epoch seconds, and its id."""
+
+FIT_PROBLEMS: Final = (
+    "not-found",
+    "fit-expired",
+    "invalid-request",
+    "not-ready",
+    "internal-error",
+)
+"""Problems that may keep a caller from a fit."""
+
+
+def _tenants_fits(context: Context) -> TenantJobs:
+    return context.jobs
+
+
+def _found(fit_id: UUID, jobs: Annotated[TenantJobs, Depends(_tenants_fits)]) -> JobRecord:
+    return find(jobs, fit_id)
+
+
+Found = Annotated[JobRecord, Depends(_found)]
+"""The fit that the path names; 404 where there is none."""
+
+
+def find(jobs: TenantJobs, fit_id: UUID) -> JobRecord:
+    """Return the fit or raise a 404."""
+    record = jobs.job(str(fit_id))
+    if record is None:
+        raise not_found(what="such fit")
+    return record
+
+
+@ROUTER.get(
+    "",
+    response_model=FitPage,
+    summary="List fits, newest first",
+    responses=documented("invalid-request", "not-ready", "internal-error"),
+)
+def list_fits(
+    context: Context,
+    response: Response,
+    limit: Limit = 50,
+    cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
+    state: Annotated[JobState | None, Query()] = None,
+    label: Annotated[Label | None, Query(description="Only those with exactly this label.")] = None,
+) -> FitPage:
+    """List fits; `next` and the Link header lead to the following page."""
+    before = read_cursor(CURSOR, cursor)
+    page, following = page_of(
+        context.jobs.jobs(limit=limit + 1, before=before, state=state, label=label),
+        response,
+        path=FITS,
+        limit=limit,
+        cursor=lambda last: cursor_of(last.created_at, last.id),
+        filters={"state": state, "label": label},
+    )
+    return FitPage(fits=tuple(map(represent, page)), next=following)
+
+
+@ROUTER.get(
+    "/{fit_id}",
+    response_model=Fit,
+    summary="Look at a fit",
+    responses=NOT_MODIFIED | documented(*FIT_PROBLEMS),
+)
+def get_fit(record: Found, response: Response, if_none_match: IfNoneMatch = None) -> Fit | Response:
+    """Return where the fit stands."""
+    tag = _tag(record)
+    if if_none_match is not None and tag in if_none_match:
+        return Response(status_code=304, headers={"ETag": tag})
+    response.headers["ETag"] = tag
+    if record.state in ACTIVE:
+        response.headers["Retry-After"] = str(POLL_AFTER_S)
+    return represent(record)
+
+
+@ROUTER.get(
+    "/{fit_id}/events",
+    summary="Follow a fit",
+    response_class=StreamingResponse,
+    responses=EVENT_ANSWERS | documented(*FIT_PROBLEMS),
+)
+def follow_fit(record: Found, context: Context, last_event_id: LastEventId = None) -> Response:
+    """Stream state changes, stages, progress and energies; `view` says of which picture.
+
+    All events since the fit was accepted are kept: a client that comes late or reconnects misses
+    none.
+    """
+    return event_stream(context, record, last_event_id)
+
+
+@ROUTER.post(
+    "/{fit_id}/cancel",
+    status_code=202,
+    response_model=Fit,
+    summary="Cancel a fit",
+    responses={
+        200: {"model": Fit, "description": "The fit has ended."},
+        202: {"description": "The fit is being stopped."},
+    }
+    | documented(*FIT_PROBLEMS),
+)
+def cancel_fit(fit_id: UUID, context: Context, response: Response) -> Fit:
+    """Stop a fit; canceling again, or canceling what has ended, changes nothing."""
+    record = context.jobs.cancel(str(fit_id))
+    if record is None:
+        raise not_found(what="such fit")
+    if record.state in TERMINAL:
+        response.status_code = 200
+    return represent(record)
+
+
+@ROUTER.delete(
+    "/{fit_id}", status_code=204, summary="Erase a fit", responses=documented(*FIT_PROBLEMS)
+)
+def erase_fit(fit_id: UUID, context: Context) -> Response:
+    """Stop the fit if it runs, and erase it with its pictures, results and products."""
+    scopes = context.jobs.erase(str(fit_id))
+    if not scopes:
+        raise not_found(what="such fit")
+    erase_blobs(context.blobs, scopes)
+    return Response(status_code=204)
+
+
+@ROUTER.get(
+    "/{fit_id}/request",
+    summary="The request of a fit",
+    response_class=Response,
+    responses={
+        200: {
+            "description": "As it was understood, defaults included.",
+            "content": {JSON: json_content(FitRequest)},
+        },
+    }
+    | NOT_MODIFIED
+    | documented(*FIT_PROBLEMS),
+)
+def get_fit_request(record: Found, context: Context, if_none_match: IfNoneMatch = None) -> Response:
+    """Return what was asked for, with names for all points: to be changed and sent again."""
+    return answer_blob(context, record.id, record.options, if_none_match)
+
+
+@ROUTER.get(
+    "/{fit_id}/result",
+    summary="The result document of a fit",
+    responses={200: {"model": FitResult}} | NOT_MODIFIED | documented("no-result", *FIT_PROBLEMS),
+)
+def get_fit_result(
+    record: Found,
+    context: Context,
+    include: Annotated[
+        list[ResultPart] | None,
+        Query(description="`stages`: the body after each stage of the fit, some 70 kB more."),
+    ] = None,
+    if_none_match: IfNoneMatch = None,
+) -> Response:
+    """Return measurements, cameras, pose, shape, light, what was assumed, and the files' names."""
+    document = record.files.get(RESULT)
+    if record.state is not JobState.SUCCEEDED or document is None:
+        raise ProblemError(no_result(record))
+    stored = stored_content(context, record.id, document)
+    content = result_json(stored, included=frozenset(include or ()))
+    tag = hashlib.sha256(content).hexdigest()
+    headers = {"ETag": f'"{tag}"'}
+    if is_known(tag, if_none_match):
+        return Response(status_code=304, headers=headers)
+    return Response(content, media_type=JSON, headers=headers)
+
+
+@ROUTER.get(
+    "/{fit_id}/files/{name:path}",
+    summary="A file of a fit",
+    description="Return a file: `views/0/image`, as it was sent; `views/0/overlay.png`, "
+    f"`body_canonical.obj`, `measurements.csv` and so on.{NEGOTIATION}",
+    response_class=Response,
+    responses=file_answers(*PICTURES, "application/zip", problems=FIT_PROBLEMS),
+)
+async def get_fit_file(record: Found, name: FileName, context: Context, wanted: Wanted) -> Response:
+    """Return a file, whole or in part."""
+    rendition = chosen_rendition(record.files, name, accept=wanted.accept)
+    return await answer_file(
+        context, rendition, partial(stored_content, context, record.id), wanted
+    )
+
+
+def no_result(record: JobRecord) -> Problem:
+    """Say why a fit has no result."""
+    if record.problem is not None:
+        return problem(
+            "no-result",
+            code=record.problem.code,
+            field=record.problem.field,
+            detail=f"The fit {record.state}: {record.problem.detail}",
+            remedy=record.problem.remedy,
+        )
+    canceled = record.state is JobState.CANCELED
+    return problem(
+        "no-result",
+        detail=f"The fit is {record.state}.",
+        remedy="Send it again." if canceled else "Wait until it has succeeded; follow its events.",
+    )
+
+
+def _tag(record: JobRecord) -> str:
+    """An entity tag that changes with everything that is shown of the fit."""
+    parts = [record.last_event, int(record.cancel_requested)]
+    if record.webhook is not None:
+        parts += [record.webhook.state, record.webhook.attempts]
+    return f'W/"{"-".join(map(str, parts))}"'
