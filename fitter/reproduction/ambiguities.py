@@ -12,11 +12,11 @@ from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.reproduction.figure import Figure
 from fitter.reproduction.panels import (
     GREEN,
     MAGENTA,
     RED,
+    Figure,
     Levels,
     coloured_body,
     common_camera,

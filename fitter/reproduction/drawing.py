@@ -13,12 +13,10 @@ from fitter.applications.walk import stride_of
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.reproduction.ambiguities import figure_4, figure_5, fit_by_paper
-from fitter.reproduction.figure import Figure
 from fitter.reproduction.first_guess import figure_2, figure_3
-from fitter.reproduction.refits import figure_7
-from fitter.reproduction.shape_space import figure_6
+from fitter.reproduction.looks import figure_6, figure_7, figure_9, figure_10
+from fitter.reproduction.panels import Figure
 from fitter.reproduction.subject import Subject, Table, figure_8, table_1
-from fitter.reproduction.uses import figure_9, figure_10
 from fitter.request import FitRequest, Paper
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues
@@ -85,7 +83,7 @@ def reproduce(
     drawn(figure_5(portrait, plain))
     drawn(figure_6())
     shaded = _fit(portrait)
-    drawn(figure_7(portrait, shaded))
+    drawn(figure_7(shaded))
     by_paper = [fit_by_paper(each.request, Paper(), Cues.SES) for each in subject.pictures]
     ours = [_fit(each.request) for each in subject.pictures]
     drawn(figure_8("figure_8", f"Figure 8: SE and SES, {BY_PAPER}", subject, by_paper))

@@ -25,8 +25,15 @@ from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
-from fitter.reproduction.figure import Figure
-from fitter.reproduction.panels import Levels, coloured_body, common_camera, in_profile, row, tinted
+from fitter.reproduction.panels import (
+    Figure,
+    Levels,
+    coloured_body,
+    common_camera,
+    in_profile,
+    row,
+    tinted,
+)
 from fitter.request import FitRequest
 from fitter.result import FitResult
 from fitter.segmentation.trimap import trimap_picture

@@ -1,6 +1,7 @@
-"""Labelled pictures side by side, and bodies in one colour or in a colour of each vertex."""
+"""A figure of the paper drawn anew: labelled pictures side by side, and bodies in colours."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import cv2
@@ -22,6 +23,32 @@ from fitter.export.views import (
 )
 from fitter.parameters import CameraTilt
 from fitter.render.camera import Camera
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Figure:
+    """One of the paper's figures, drawn anew.
+
+    Attributes
+    ----------
+    name
+        ``figure_2``: of its file.
+    title
+        Its number in the paper, and what it is about.
+    caption
+        What is to be seen.
+    differs
+        What is not as in the paper's.
+    picture
+        (h, w, 3) sRGB levels.
+    """
+
+    name: str
+    title: str
+    caption: str
+    differs: str
+    picture: UInt8[np.ndarray, "h w 3"]
+
 
 Levels = UInt8[np.ndarray, "_ _ 3"]
 

@@ -13,10 +13,10 @@ from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import to_levels
 from fitter.export.views import CANONICAL_DISTANCE_M
 from fitter.render.camera import Camera
-from fitter.reproduction.figure import Figure
 from fitter.reproduction.panels import (
     GREEN,
     RED,
+    Figure,
     Levels,
     coloured_body,
     common_camera,

@@ -14,8 +14,8 @@ from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.reproduction.drawing import Pictures, Reproduction, reproduce
-from fitter.reproduction.figure import Figure
 from fitter.reproduction.index import PRINTED_TABLE, index_html, table_csv
+from fitter.reproduction.panels import Figure
 from fitter.reproduction.subject import PosedTruth, Subject
 from service.commands.fit import UNUSABLE_INPUT, read_request, told
 from service.demo_data.sample import load_sample, load_subject

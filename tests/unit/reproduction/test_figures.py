@@ -1,18 +1,16 @@
-"""What the figures are put together from: colours, displacements, textures, Lambert's model."""
+"""Colours, displacements and textures, of which the figures are put together."""
 
 import numpy as np
 import pytest
 
 from fitter.fits.prepared_model import prepared_model
-from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
-from fitter.render.reflectance import shade, shading_terms
+from fitter.reproduction.looks import textured_body
 from fitter.reproduction.panels import overlaps, row
-from fitter.reproduction.refits import WITHOUT_HIGHLIGHTS
 from fitter.reproduction.subject import displacements_m
-from fitter.reproduction.uses import textured_body
-from fitter.vocabulary.choices import Gender, LightKind
+from fitter.vocabulary.choices import Gender
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=200.0, centre_y=260.0, width=400, height=520)
 
@@ -71,21 +69,3 @@ def test_a_texture_lies_where_the_atlas_says(posed):
     off = np.abs(drawn[rows, columns, :2] - expected)
     assert np.median(off) < 2.0
     assert (drawn[~seen] == 255).mean() > 0.98
-
-
-def test_without_highlights_the_model_is_lamberts(posed):
-    model, vertices = posed
-    normals = render(vertices, model.triangles, CAMERA).vertex_normals
-    light = Light(kind=LightKind.POINT, azimuth=0.5, elevation=0.4, distance=2.0)
-    centre = np.array([0.0, 0.0, 3.4])
-    reflectance = Reflectance(
-        albedo=np.full(len(vertices), 0.5),
-        specularity=np.full(len(vertices), 0.8),
-        ambient=0.1,
-        specular_exponent=WITHOUT_HIGHLIGHTS,
-    )
-    terms = shading_terms(
-        vertices, normals, light=light, body_centre=centre, specular_exponent=WITHOUT_HIGHLIGHTS
-    )
-    shown = shade(vertices, normals, light=light, body_centre=centre, reflectance=reflectance)
-    np.testing.assert_allclose(shown, 0.1 + 0.5 * terms.diffuse, atol=1e-6)

@@ -1,4 +1,4 @@
-"""Figs. 9 and 10: what a fit is good for: new poses with the picture's texture, a caricature."""
+"""Figs. 6, 7, 9 and 10: shapes, reflectance, and what a fit is good for."""
 
 from collections.abc import Callable
 from typing import Final
@@ -10,16 +10,18 @@ from fitter.applications.caricature import (
     caricature_of_looks,
     caricature_of_most_unusual,
 )
-from fitter.applications.figure import figure_picture
 from fitter.applications.grounding import grounded
 from fitter.applications.motion import Motion, moving_body
 from fitter.applications.poses import named_pose
+from fitter.applications.previews import View, preview
 from fitter.applications.rig import rig_of
 from fitter.applications.texture import linear_picture, picture_texture
 from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES, ScapeEvaluator
+from fitter.body.shape_space import height_of_shape
 from fitter.errors import InvalidInputError
+from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import finer, to_levels
 from fitter.export.pictures import overlay_picture
 from fitter.export.views import CANONICAL_DISTANCE_M, turned_about_vertical
@@ -29,10 +31,15 @@ from fitter.observation.decoding import decode_picture
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
-from fitter.reproduction.figure import Figure
-from fitter.reproduction.panels import Levels, coloured_body, common_camera, row
+from fitter.render.reflectance import shading_terms
+from fitter.reproduction.panels import Figure, Levels, coloured_body, common_camera, row, stacked
 from fitter.request import FitRequest
 from fitter.result import FitResult
+from fitter.vocabulary.choices import Gender
+
+DEVIATIONS: Final = 3.0
+_AXES: Final = 4
+_ROW_PX: Final = 300
 
 TEXTURE_SIZE: Final = 1024
 _MOMENTS: Final = (0.0, 0.17, 0.42)
@@ -42,6 +49,88 @@ _DEGREES: Final = (25.0, 60.0, -30.0)
 _FACTOR: Final = 2.0
 _LOOKS_FACTOR: Final = 1.7
 _SAMPLES: Final = 2
+
+
+def figure_6() -> Figure:
+    """Three standard deviations either way: men above, women below."""
+    rows, changes = [], []
+    for gender in (Gender.MALE, Gender.FEMALE):
+        prepared = prepared_model(gender)
+        evaluator = prepared.operators.evaluator
+        views: list[View] = []
+        titles: list[str] = []
+        for axis in range(_AXES):
+            heights = []
+            for sign in (-1.0, 1.0):
+                shape = np.zeros(len(evaluator.model.shape_basis))
+                shape[axis] = sign * DEVIATIONS
+                heights.append(height_of_shape(evaluator, shape))
+                title = "height axis" if axis == 0 else f"axis {axis}"
+                titles.append(f"{title}: {sign * DEVIATIONS:+.0f} SD")
+                views.append(
+                    View(
+                        label="",
+                        vertices=prepared.measuring.canonical.at(shape),
+                        degrees=30.0,
+                    )
+                )
+            if axis:
+                changes.append(1000.0 * abs(heights[1] - heights[0]))
+        panels = np.split(preview(views, evaluator.model.triangles), len(views), axis=1)
+        rows.append(row(list(zip(titles, panels, strict=True)), height_px=_ROW_PX))
+    return Figure(
+        name="figure_6",
+        title="Figure 6: the height-preserving shape spaces",
+        caption=(
+            "The first pair of each row is three standard deviations either way along the height "
+            "axis, the others along the first three axes that keep the height. Men above, women "
+            f"below. Along those the stature changes by {max(changes):.3f} mm at most."
+        ),
+        differs="Learned from synthetic bodies; coefficients are whitened before axes are turned.",
+        picture=stacked(rows),
+    )
+
+
+def figure_7(result: FitResult) -> Figure | None:
+    """Albedo, and the picture's brightness by both models; None of a fit without shading."""
+    person = result.person
+    light, reflectance = person.light, person.reflectance
+    if light is None or reflectance is None:
+        return None
+    (view,) = result.views
+    fine = render_finely(result.found.posed_vertices, result.triangles, view.camera)
+    terms = shading_terms(
+        result.found.posed_vertices,
+        fine.rendering.vertex_normals,
+        light=light,
+        body_centre=person.body.translation,
+        specular_exponent=reflectance.specular_exponent,
+    )
+    lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
+    phong = lambertian + reflectance.specularity * terms.specular
+    albedo, flat, glossy = vertex_pictures([reflectance.albedo, lambertian, phong], fine)
+    grey = to_levels(view.pictures.image.mean(axis=2))
+    seen = np.where(view.pictures.segmentation, grey, 255).astype(np.uint8)
+    return Figure(
+        name="figure_7",
+        title="Figure 7: estimated reflectance",
+        caption=(
+            "The picture's brightness, albedo, and what Eq. 1 predicts without its highlights "
+            "(Lambert) and with them (Blinn-Phong)."
+        ),
+        differs=(
+            "The specular exponent is 12 for everybody. Albedo is piecewise smooth by the same "
+            "robust term."
+        ),
+        picture=row(
+            [
+                ("brightness of the picture", np.repeat(seen[..., None], 3, axis=2)),
+                ("albedo", albedo),
+                ("Lambert", flat),
+                ("Blinn-Phong", glossy),
+            ]
+        ),
+    )
 
 
 def figure_9(request: FitRequest, result: FitResult, motion: Motion, *, recorded: bool) -> Figure:
@@ -121,6 +210,13 @@ def figure_10(request: FitRequest, result: FitResult, *, pose: str = "walking") 
         )
         for each in (result.person.body.pose, named_pose(rig_of(model, shape), pose))
     )
+    overlay = overlay_picture(
+        levels, result.found.posed_vertices, model.triangles, topology, view.camera
+    )
+    bodies = preview(
+        [View(label="", vertices=fitted), View(label="", vertices=reposed)], model.triangles
+    )
+    one, other = np.split(bodies, 2, axis=1)
     return Figure(
         name="figure_10",
         title="Figure 10: a painting",
@@ -130,15 +226,13 @@ def figure_10(request: FitRequest, result: FitResult, *, pose: str = "walking") 
             f"{100 * result.found.silhouette_overlap:.0f} %."
         ),
         differs="The painting is the one that was given.",
-        picture=figure_picture(
-            levels,
-            overlay_picture(
-                levels, result.found.posed_vertices, model.triangles, topology, view.camera
-            ),
-            fitted,
-            reposed,
-            model.triangles,
-            pose_name=pose.replace("_", " "),
+        picture=row(
+            [
+                ("picture", levels),
+                ("fitted body over it", overlay),
+                ("fitted body", one),
+                (pose.replace("_", " "), other),
+            ]
         ),
     )
 
