@@ -13,7 +13,7 @@ from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
 from tests.contract.document import REPOSITORY, exported
 
-PAGE: Final = REPOSITORY / "service" / "docs" / "guide" / "fields.md"
+PAGE: Final = REPOSITORY / "service" / "docs" / "guide" / "requests.md"
 BEGIN, END = "<!-- fields -->\n", "<!-- until here -->\n"
 TYPES: Final = ((FitRequest, ""), (ViewRequest, "views.0."))
 """What is said of the person and of the fit, and of a picture."""

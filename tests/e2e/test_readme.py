@@ -10,7 +10,6 @@ from pathlib import Path
 import httpx
 import pytest
 
-from api_schemas.fit import FitRequest
 from tests.e2e.service import REPOSITORY, ended_job
 from tests.readme import README, block
 
@@ -59,17 +58,13 @@ def listed_root() -> set[Path]:
     return {path for path in REPOSITORY.iterdir() if not path.name.startswith(".")}
 
 
-def test_the_curl_examples_bring_points_results_a_texture_and_other_formats(
+def test_the_curl_examples_bring_a_result_a_texture_other_formats_and_points(
     address: str, clean_root: Path
 ):
-    commands = block("curl") + block("derivation") + block("formats") + block("points")
-    commands += block("checks")
+    commands = block("curl") + block("product") + block("formats") + block("points")
     done = run(["bash", "-euo", "pipefail", "-c", commands], SERVICE=address)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.count("event: end") == 2
     assert len(json.loads((clean_root / "points.json").read_text())["points"]) == 21
-    check = json.loads((clean_root / "check.json").read_text())
-    assert (check["usable"], check["findings"], check["seen_from"]) == (True, [], "front")
     assert json.loads((clean_root / "result.json").read_text())["measurements"]
     for name in ("body_posed.glb", "body_textured.glb"):
         assert (clean_root / name).read_bytes()[:4] == b"glTF"
@@ -89,9 +84,12 @@ def test_the_request_fits_the_sample_picture(address: str):
     assert stature["value"] == pytest.approx(180.4, abs=0.01)
 
 
-def test_the_request_of_several_pictures_says_what_was_meant():
-    asked = FitRequest.model_validate_json(block("views-request"))
-    assert [each.view for each in asked.views] == ["front", "side"]
+def test_the_front_and_side_example_measures_the_sample_pair(address: str, clean_root: Path):
+    done = run(["bash", "-euo", "pipefail", "-c", block("pair")], SERVICE=address)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("event: end") == 1
+    assert json.loads((clean_root / "pair.json").read_text())["measurements"]
+    assert (clean_root / "side_overlay.png").read_bytes()[1:4] == b"PNG"
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node.js to run the fetch example")
@@ -106,7 +104,7 @@ def test_the_command_line_example_writes_all_files(clean_root: Path):
         pytest.skip("the README's .venv is not there: run through make test")
     done = run(["bash", "-euo", "pipefail", "-c", block("fit")])
     assert done.returncode == 0, done.stdout + done.stderr
-    assert (clean_root / "fit-output" / "views" / "0" / "overlay.png").exists()
+    assert (clean_root / "fit-output" / "views" / "1" / "overlay.png").exists()
 
 
 def test_make_demo_prints_measurements_beside_the_truth(clean_root: Path):

@@ -47,12 +47,12 @@ def test_the_path_alone_leads_to_the_first_page(get: Get):
 
 
 def test_pages_may_load_the_services_own_files_alone(get: Get):
-    answer = get("/documentation/guide/scans.html")
+    answer = get("/documentation/guide/requests.html")
     assert answer.headers["content-type"].startswith("text/html")
     policy = answer.headers["content-security-policy"]
     assert "default-src 'none'" in policy
     assert "script-src 'self';" in policy
-    again = get("/documentation/guide/scans.html", **{"If-None-Match": answer.headers["etag"]})
+    again = get("/documentation/guide/requests.html", **{"If-None-Match": answer.headers["etag"]})
     assert again.status_code == 304
 
 
@@ -63,7 +63,7 @@ def test_only_the_sites_files_are_served(get: Get, path: str):
     assert answer.headers["content-type"] == "application/problem+json"
 
 
-@pytest.mark.parametrize("path", ["", "/", "/guide/scans.html"])
+@pytest.mark.parametrize("path", ["", "/", "/guide/requests.html"])
 def test_a_service_without_the_site_says_how_to_get_it(tmp_path: Path, path: str):
     answer = getting(tmp_path / "nowhere")(f"/documentation{path}")
     assert answer.status_code == 404
