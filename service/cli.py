@@ -169,7 +169,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _serve(parsed: argparse.Namespace) -> int:
     from service.commands.serve import WORKER_COMMAND, listen, serve
-    from service.startup.begin import begin, run_told
+    from service.startup import begin, run_told
 
     settings = begin(
         "serve",
@@ -201,7 +201,7 @@ def _serve(parsed: argparse.Namespace) -> int:
 
 
 def _worker(_: argparse.Namespace) -> int:
-    from service.startup.begin import begin, run_told
+    from service.startup import begin, run_told
     from service.worker.main import run_worker
 
     settings = begin("worker")
@@ -210,7 +210,7 @@ def _worker(_: argparse.Namespace) -> int:
 
 def _prepare(parsed: argparse.Namespace) -> int:
     from service.commands.prepare import prepare
-    from service.startup.begin import begin, run_told
+    from service.startup import begin, run_told
 
     settings = begin("prepare")
     return run_told("prepare", lambda: prepare(settings, adopt_storage=parsed.adopt_storage))
@@ -219,7 +219,7 @@ def _prepare(parsed: argparse.Namespace) -> int:
 def _keys(parsed: argparse.Namespace) -> int:
     from service.commands import keys
     from service.engine.keys import Role
-    from service.startup.begin import read_settings, run_told, warn_of_unknown_names
+    from service.startup import read_settings, run_told, warn_of_unknown_names
 
     settings = read_settings("keys", _given(parsed, "data_dir"))
     warn_of_unknown_names()
@@ -232,7 +232,7 @@ def _keys(parsed: argparse.Namespace) -> int:
 
 
 def _health(parsed: argparse.Namespace) -> int:
-    from service.startup.begin import read_settings, warn_of_unknown_names
+    from service.startup import read_settings, warn_of_unknown_names
 
     settings = read_settings("health")
     warn_of_unknown_names()
@@ -247,7 +247,7 @@ def _health(parsed: argparse.Namespace) -> int:
 
 def _fit(parsed: argparse.Namespace) -> int:
     from service.commands.fit import FitArguments, fit_locally
-    from service.startup.begin import read_settings
+    from service.startup import read_settings
 
     if parsed.mask and len(parsed.mask) != len(parsed.pictures):
         print("maquette fit: give no --mask, or one for each picture.", file=sys.stderr)
@@ -266,7 +266,7 @@ def _fit(parsed: argparse.Namespace) -> int:
 
 def _validate(parsed: argparse.Namespace) -> int:
     from service.commands.validate import validate
-    from service.startup.begin import read_settings
+    from service.startup import read_settings
 
     return validate(parsed.people, parsed.output, models=read_settings("validate").models_dir)
 
@@ -278,7 +278,7 @@ def _given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:
 
 def _draw_paper(parsed: argparse.Namespace) -> int:
     from service.commands.paper import PaperArguments, draw_paper
-    from service.startup.begin import read_settings
+    from service.startup import read_settings
 
     settings = read_settings("paper")
     return draw_paper(
@@ -294,7 +294,7 @@ def _draw_paper(parsed: argparse.Namespace) -> int:
 
 def _demo(parsed: argparse.Namespace) -> int:
     from service.commands.demo import run_demo
-    from service.startup.begin import read_settings
+    from service.startup import read_settings
 
     read_settings("demo")
     return run_demo(parsed.output)

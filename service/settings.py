@@ -11,7 +11,6 @@ from typing import Final, Literal
 from pydantic import Field, ValidationInfo, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-from service.setting_addresses import is_loopback
 from service.setting_types import (
     BucketUrl,
     DatabaseUrl,
@@ -22,8 +21,8 @@ from service.setting_types import (
     Origins,
     Pauses,
     Ports,
-    WebAddress,
     WebhookSecret,
+    is_loopback,
     split_list,
 )
 
@@ -88,16 +87,10 @@ class Settings(BaseSettings):
     blob_url: BucketUrl | None = Field(
         default=None,
         description=(
-            "`s3://bucket/prefix` for pictures and results in object storage (credentials from "
-            "`AWS_ACCESS_KEY_ID` and so on); the data folder if unset."
+            "`s3://bucket/prefix` for pictures and results in object storage (server, region and "
+            "credentials from `AWS_ENDPOINT_URL_S3`, `AWS_DEFAULT_REGION`, `AWS_ACCESS_KEY_ID` and "
+            "so on); the data folder if unset."
         ),
-    )
-    s3_endpoint_url: WebAddress | None = Field(
-        default=None, description="Address of an S3-compatible server; Amazon's own if unset."
-    )
-    s3_region: str | None = Field(
-        default=None,
-        description="Region of the bucket; the S3 client's own if unset.",
     )
     models_dir: ModelFolder | None = Field(
         default=None,
@@ -137,12 +130,6 @@ class Settings(BaseSettings):
         le=1_000_000,
         description="Jobs of one tenant that may wait before its new ones are refused (429).",
     )
-    max_images_per_tenant: int = Field(
-        default=1_000,
-        ge=1,
-        le=1_000_000,
-        description="Uploaded pictures kept for one tenant before more are refused (507).",
-    )
     max_image_bytes_per_tenant: int = Field(
         default=5_000_000_000,
         ge=1,
@@ -155,29 +142,13 @@ class Settings(BaseSettings):
         le=1_000_000,
         description="Requests of one API key a minute before one API process refuses more (429).",
     )
-    max_connections: int = Field(
-        default=800,
-        ge=1,
-        le=100_000,
-        description=(
-            "Requests that one API process works on at the same time, event streams among them; "
-            "one more is refused (503). Each takes a file descriptor (`ulimit -n`)."
-        ),
-    )
     body_time_limit_s: float = Field(
         default=30.0,
         ge=SHORTEST_PACE_S,
         le=3_600.0,
         description=(
-            "How long the body of a request may take (408), beside the time that "
-            "`MAQUETTE_BODY_BYTES_PER_S` gives it."
+            "How long the body of a request may take (408), and a second more for every 4 kB of it."
         ),
-    )
-    body_bytes_per_s: int = Field(
-        default=4_000,
-        ge=1,
-        le=1_000_000_000,
-        description="A body gets a second more for each so many bytes that came.",
     )
     retention_hours: float = Field(
         default=168.0,
@@ -283,24 +254,6 @@ class Settings(BaseSettings):
         ge=SHORTEST_PACE_S,
         le=DAY_S,
         description="A worker silent for this long has its fits taken over.",
-    )
-    queue_poll_s: float = Field(
-        default=0.1,
-        ge=SHORTEST_PACE_S,
-        le=3_600.0,
-        description="How often an idle worker looks for jobs.",
-    )
-    cancel_poll_s: float = Field(
-        default=0.1,
-        ge=SHORTEST_PACE_S,
-        le=3_600.0,
-        description="How often a running fit looks whether it was canceled.",
-    )
-    progress_interval_s: float = Field(
-        default=0.2,
-        ge=SHORTEST_PACE_S,
-        le=3_600.0,
-        description="The shortest time between two stored progress reports.",
     )
     min_free_disk_mb: int = Field(
         default=200,

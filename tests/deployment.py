@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 
+from tests.object_storage import variable
 from tests.process_table import Process, processes_with
 
 REPOSITORY = Path(__file__).parents[1]
@@ -176,11 +177,7 @@ class Deployment:
         inherited = {
             name: value for name, value in os.environ.items() if not name.startswith("MAQUETTE_")
         }
-        return (
-            inherited
-            | {FOLDER_VARIABLE: str(self.folder)}
-            | {f"MAQUETTE_{name.upper()}": str(value) for name, value in values.items()}
-        )
+        return inherited | {FOLDER_VARIABLE: str(self.folder)} | dict(map(variable, values.items()))
 
 
 def _kind(process: Process, fork_servers: set[int]) -> Kind | None:

@@ -16,6 +16,12 @@ CREDENTIALS: Mapping[str, str] = {
 }
 
 
+def variable(setting: tuple[str, object]) -> tuple[str, str]:
+    """The environment's variable for a setting of ours or, by its name, of the S3 client."""
+    name, value = setting[0].upper(), str(setting[1])
+    return (name if name.startswith("AWS_") else f"MAQUETTE_{name}"), value
+
+
 @dataclass(frozen=True)
 class ObjectStorage:
     """Where the server listens, and the name of a bucket that nobody has made yet."""
@@ -24,12 +30,17 @@ class ObjectStorage:
     bucket: str
 
     @property
+    def blob_url(self) -> str:
+        """Where the service's blobs lie."""
+        return f"s3://{self.bucket}/blobs"
+
+    @property
     def settings(self) -> dict[str, str]:
         """What a process of the service is to be told."""
         return {
-            "blob_url": f"s3://{self.bucket}/blobs",
-            "s3_endpoint_url": self.endpoint_url,
-            "s3_region": REGION,
+            "blob_url": self.blob_url,
+            "aws_endpoint_url_s3": self.endpoint_url,
+            "aws_default_region": REGION,
         }
 
     @property

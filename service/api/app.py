@@ -165,13 +165,9 @@ def _surround(
         app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
     app.add_middleware(MessageFraming)
     # Outside of everything that reads or discards bodies.
-    app.add_middleware(
-        BodyTimeLimit,
-        time_limit_s=settings.body_time_limit_s,
-        bytes_per_s=settings.body_bytes_per_s,
-    )
+    app.add_middleware(BodyTimeLimit, time_limit_s=settings.body_time_limit_s)
     app.add_middleware(Compression)
-    app.add_middleware(RequestLimit, most=settings.max_connections)
+    app.add_middleware(RequestLimit)
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
     app.add_middleware(Observation, metrics=metrics)
 

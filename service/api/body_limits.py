@@ -18,6 +18,9 @@ from service.api.problems import ProblemError, problem_response
 DISCARDED_BYTES: Final = 10_000_000
 """How much of a refused body is read and discarded so that the client reads the answer."""
 
+BYTES_PER_S: Final = 4_000
+"""A body gets a second more for each so many bytes that came: the slowest of phones are faster."""
+
 REFUSALS: Final = 400
 """Statuses from here on are not successful, and may be sent before the body was read."""
 
@@ -142,7 +145,9 @@ LATE: Final = 408
 class BodyTimeLimit:
     """ASGI middleware: a body may take a fixed time plus one second per ``bytes_per_s``."""
 
-    def __init__(self, app: ASGIApp, *, time_limit_s: float, bytes_per_s: int) -> None:
+    def __init__(
+        self, app: ASGIApp, *, time_limit_s: float, bytes_per_s: int = BYTES_PER_S
+    ) -> None:
         self._app = app
         self._time_limit_s = time_limit_s
         self._bytes_per_s = bytes_per_s

@@ -15,7 +15,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from api_schemas.problems import Problem, problem
 from service.api.body_limits import refuse
 from service.api.problems import problem_response
-from service.setting_addresses import is_loopback
+from service.setting_types import is_loopback
 
 HARMLESS: Final = frozenset({"GET", "HEAD", "OPTIONS"})
 

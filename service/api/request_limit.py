@@ -4,17 +4,22 @@ Event streams count as long as they are followed. Connections that ask nothing d
 closes them when they are idle, and a proxy ends those that do not finish their question.
 """
 
+from typing import Final
+
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import problem
 from service.api.problems import problem_response
 
+MOST: Final = 800
+"""Each takes a file descriptor, of which a process usually has 1024."""
+
 
 class RequestLimit:
     """ASGI middleware: passes on up to ``most`` requests at the same time."""
 
-    def __init__(self, app: ASGIApp, *, most: int) -> None:
+    def __init__(self, app: ASGIApp, *, most: int = MOST) -> None:
         self._app = app
         self._most = most
         self._running = 0

@@ -1,11 +1,13 @@
 """Blobs as objects in S3-compatible storage: ``prefix/scope/sha256`` in one bucket.
 
-Credentials come from where every S3 client looks for them: ``AWS_ACCESS_KEY_ID`` and
+Server, region and credentials come from where every S3 client looks for them:
+``AWS_ENDPOINT_URL_S3``, ``AWS_DEFAULT_REGION``, ``AWS_ACCESS_KEY_ID`` and
 ``AWS_SECRET_ACCESS_KEY``, a shared file, or the machine's role.
 """
 
 import contextlib
 import hashlib
+import os
 import uuid
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
@@ -38,6 +40,9 @@ REFUSED: Final = frozenset(
 )
 """What is answered until name, region, credentials or rights are corrected."""
 
+ENDPOINT: Final = "AWS_ENDPOINT_URL_S3"
+"""Names a server that is not Amazon's."""
+
 UNVERSIONED: Final = frozenset({"NotImplemented", "MethodNotAllowed"})
 """Errors of servers that do not support versions when asked for them."""
 
@@ -56,15 +61,11 @@ ATTEMPTS: Final = 3
 class S3BlobStore:
     """Content-addressed objects below a prefix of a bucket."""
 
-    def __init__(
-        self, *, bucket: str, prefix: str, endpoint_url: str | None, region: str | None
-    ) -> None:
+    def __init__(self, *, bucket: str, prefix: str) -> None:
         self._bucket = bucket
         self._prefix = f"{prefix.strip('/')}/" if prefix.strip("/") else ""
         self._client: Any = boto3.client(
             "s3",
-            endpoint_url=endpoint_url,
-            region_name=region,
             config=Config(
                 connect_timeout=CONNECT_TIMEOUT_S,
                 read_timeout=READ_TIMEOUT_S,
@@ -72,7 +73,7 @@ class S3BlobStore:
                 max_pool_connections=CONNECTIONS,
                 # Many S3-compatible servers know neither buckets as host names nor the newer
                 # checksums; the content is checked by its name instead.
-                s3={"addressing_style": "path" if endpoint_url else "auto"},
+                s3={"addressing_style": "path" if ENDPOINT in os.environ else "auto"},
                 request_checksum_calculation="when_required",
                 response_checksum_validation="when_required",
             ),

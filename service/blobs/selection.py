@@ -31,9 +31,4 @@ def open_blob_store(settings: Settings) -> BlobStore:
     except ImportError as error:
         message = "S3 needs the client; install it with: pip install 'maquette[s3]'"
         raise SettingError(message, name="blob_url", value=settings.blob_url) from error
-    return S3BlobStore(
-        bucket=url.netloc,
-        prefix=url.path,
-        endpoint_url=settings.s3_endpoint_url,
-        region=settings.s3_region,
-    )
+    return S3BlobStore(bucket=url.netloc, prefix=url.path)

@@ -14,7 +14,6 @@ from service.api.server import ApiServer
 from service.blobs import BlobStore, setting_of_storage
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import JobEngine
-from service.engine.images import ImageQuota
 from service.engine.keys import KeyRing
 from service.engine.storage_identity import take_storage
 from service.engine.webhooks import WebhookLedger
@@ -82,9 +81,7 @@ def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> JobEng
         blobs,
         max_queued=settings.max_queued,
         max_queued_per_tenant=settings.tenant_queue_limit,
-        image_quota=ImageQuota(
-            images=settings.max_images_per_tenant, size=settings.max_image_bytes_per_tenant
-        ),
+        image_quota=settings.max_image_bytes_per_tenant,
         retention_s=settings.retention_s,
         sweep_interval_s=settings.sweep_interval_s,
         heartbeat_s=settings.heartbeat_s,

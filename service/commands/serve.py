@@ -14,7 +14,7 @@ from service.numerics.quick_lane import SOCKET, asking
 from service.process.supervisor import PYTHON, SupervisedProcess
 from service.process.work_folder import make_work_folder
 from service.settings import PREFIX, SettingError, Settings
-from service.startup.begin import UNUSABLE_SETTINGS
+from service.startup import UNUSABLE_SETTINGS
 
 LOG: Final = logging.getLogger(__name__)
 

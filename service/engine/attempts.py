@@ -14,6 +14,7 @@ import sqlalchemy as sa
 
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
+from service.engine.availability import ABSENCES, retry_while_database_is_away
 from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
 from service.engine.records import (
     FILES,
@@ -23,7 +24,6 @@ from service.engine.records import (
     job_record,
     move_job,
 )
-from service.engine.retrying import ABSENCES, retry_while_database_is_away
 from service.engine.statistics import count_durations
 from service.engine.tables import JOBS, WORKERS
 from service.process.retrying import LONGEST_PAUSE_S

@@ -14,15 +14,15 @@ from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
 from service.engine.admission import Admission
 from service.engine.availability import available
-from service.engine.facts import read_fact, touch_fact
-from service.engine.images import ImageQuota, TenantImages
+from service.engine.executions import APPLICATION
+from service.engine.images import TenantImages
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch
 from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
-from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
 from service.engine.tables import JOBS
 from service.engine.tenant_jobs import TenantJobs
+from service.engine.transactions import read_fact, touch_fact
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -49,7 +49,7 @@ class JobEngine:
         *,
         max_queued: int,
         max_queued_per_tenant: int,
-        image_quota: ImageQuota,
+        image_quota: int,
         retention_s: float,
         sweep_interval_s: float,
         heartbeat_s: float,

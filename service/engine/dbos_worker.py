@@ -20,19 +20,28 @@ from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
 from api_schemas.body_models import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
+from service.engine.availability import ABSENCES
 from service.engine.claims import Claims
 from service.engine.dbos_jobs import BODY_MODELS_FACT
-from service.engine.executions import FAILED, Executions
-from service.engine.facts import write_fact
+from service.engine.executions import (
+    APPLICATION,
+    EXECUTION_VERSION,
+    FAILED,
+    WORKFLOW,
+    Executions,
+    queue_of,
+)
 from service.engine.heartbeat import Heartbeat
 from service.engine.port import AttemptHandler, Ending
-from service.engine.queue import APPLICATION, EXECUTION_VERSION, WORKFLOW, queue_of
-from service.engine.retrying import ABSENCES
+from service.engine.transactions import write_fact
 from service.engine.worker_slots import WorkerSlots
 from service.process.data_folder import Disk
 from service.process.logs import fields, log_context
 
 LOG: Final = logging.getLogger(__name__)
+
+QUEUE_POLL_S: Final = 0.1
+"""How often an idle worker looks for jobs."""
 
 AWAY_PAUSE_S: Final = 1.0
 """How long to pause while the database is away."""
@@ -56,7 +65,6 @@ class WorkerEngine:
         max_crashes: int,
         heartbeat_s: float,
         dead_after_s: float,
-        queue_poll_s: float,
         retention_s: float,
         disk: Disk,
         is_able: Callable[[], bool],
@@ -68,7 +76,7 @@ class WorkerEngine:
         self._disk = disk
         self._is_able = is_able
         self._is_holding_back = False
-        self._slots = WorkerSlots(processes, poll_s=queue_poll_s)
+        self._slots = WorkerSlots(processes, poll_s=QUEUE_POLL_S)
         self._executions = Executions(database)
         self._claims = Claims(database, executor_id=self.executor_id, retention_s=retention_s)
         self._attempts = AttemptLog(

@@ -6,8 +6,6 @@ from typing import Final
 import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer, WorkflowStatus
 
-from service.engine.queue import APPLICATION, queue_of
-
 FAILED: Final = "ERROR"
 ENDED: Final = ("SUCCESS", FAILED, "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
 OPEN: Final = ("PENDING", "ENQUEUED", "DELAYED")
@@ -75,3 +73,15 @@ class Executions:
             load_input=False,
             load_output=False,
         )
+
+
+APPLICATION: Final = "maquette"
+WORKFLOW: Final = "fit"
+EXECUTION_VERSION: Final = "1"
+"""DBOS's application version: that of the checkpoints' meaning, not of the code. Raised only when
+stored checkpoints can no longer be continued; workers run only jobs of their own version."""
+
+
+def queue_of(executor_id: str) -> str:
+    """Name the queue on which a worker continues executions that others have begun."""
+    return f"fits-{executor_id}"

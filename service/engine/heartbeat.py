@@ -13,12 +13,12 @@ from typing import Final
 
 import sqlalchemy as sa
 
+from service.engine.availability import ABSENCES
 from service.engine.claims import Claims
 from service.engine.executions import Executions
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch, this_process
-from service.engine.retrying import ABSENCES
 from service.engine.tables import UNABLE_WORKERS, WORKERS
-from service.engine.upsert import insert_or_update
+from service.engine.transactions import insert_or_update
 from service.engine.worker_slots import WorkerSlots
 
 LOG: Final = logging.getLogger(__name__)

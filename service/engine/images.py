@@ -50,14 +50,6 @@ class KeptImage:
     is_new: bool
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImageQuota:
-    """How many uploaded pictures, and how many bytes of them, one tenant may keep."""
-
-    images: int
-    size: int
-
-
 class ImageQuotaError(Exception):
     """There is no room for this picture besides the tenant's others; the message says how many."""
 
@@ -74,7 +66,7 @@ class TenantImages:
         *,
         database: sa.Engine,
         retention_s: float,
-        quota: ImageQuota,
+        quota: int,
     ) -> None:
         self._tenant = tenant
         self._database = database
@@ -168,16 +160,13 @@ class TenantImages:
 
         Concurrent uploads may together exceed it.
         """
-        images, total = connection.execute(
-            sa.select(sa.func.count(), sa.func.coalesce(sa.func.sum(IMAGES.c.size), 0)).where(
+        total = connection.execute(
+            sa.select(sa.func.coalesce(sa.func.sum(IMAGES.c.size), 0)).where(
                 IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time()
             )
-        ).one()
-        if images >= self._quota.images or total + size > self._quota.size:
-            message = (
-                f"{images} pictures of {total} bytes are kept for you; at most "
-                f"{self._quota.images} pictures and {self._quota.size} bytes may be."
-            )
+        ).scalar_one()
+        if total + size > self._quota:
+            message = f"{total} bytes of pictures are kept for you; at most {self._quota} may be."
             raise ImageQuotaError(message)
 
     def _renew(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:

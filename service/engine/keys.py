@@ -19,7 +19,7 @@ from sqlalchemy.exc import InternalError
 from service.engine.availability import available
 from service.engine.port import EngineUnavailableError
 from service.engine.tables import API_KEYS, KEY_USES
-from service.engine.upsert import insert_or_update
+from service.engine.transactions import insert_or_update
 
 MARK: Final = "mq"
 TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")

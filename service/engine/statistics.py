@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from api_schemas.jobs import JobState
 from service.engine.port import FIT, DurationHistogram, JobRecord
 from service.engine.tables import DURATIONS, OUTCOMES
-from service.engine.upsert import insert_or_update
+from service.engine.transactions import insert_or_update
 
 BOUNDS_S: Final = (0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0, 1e9)
 """Upper bounds of the histograms' buckets, seconds; the last one stands for infinity."""

@@ -20,10 +20,10 @@ from service.blobs import (
     StorageRefusedError,
     StorageUnusableError,
 )
+from service.engine.availability import retry_while_database_is_away
 from service.engine.database import locked, opened
-from service.engine.facts import read_fact, write_fact
-from service.engine.retrying import retry_while_database_is_away
 from service.engine.tables import FACTS
+from service.engine.transactions import read_fact, write_fact
 from service.process.retrying import retry_with_pauses
 
 STORAGE_FACT: Final = "storage"

@@ -12,7 +12,7 @@ from sqlalchemy.exc import IntegrityError
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from service.engine.admission import Admission
-from service.engine.availability import available
+from service.engine.availability import ABSENCES, available
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
     enter_erasures,
@@ -30,7 +30,6 @@ from service.engine.port import (
     SubmitOutcome,
 )
 from service.engine.records import INPUTS, append_event, end_job, job_record
-from service.engine.retrying import ABSENCES
 from service.engine.tables import EVENTS, JOBS, TOMBSTONES
 from service.engine.transactions import read_then_write
 from service.engine.turns import turn_of_next_job

@@ -5,7 +5,7 @@ They answer its questions at that address, and end with it.
 
 import sys
 
-from service.startup.begin import begin, run_told
+from service.startup import begin, run_told
 from service.worker.main import run_estimators
 
 if __name__ == "__main__":

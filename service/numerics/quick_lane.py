@@ -49,6 +49,13 @@ ANSWER_WITHIN_S: Final = 10.0
 EXIT_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
 
+SOCKET: Final = "questions"
+LOOK_S: Final = 0.02
+BACKLOG: Final = 128
+
+GIVEN_UP_S: Final = READY_WITHIN_S + (1 + MOST_WAITING) * ANSWER_WITHIN_S
+"""By then an owner that runs has answered, however long those took that were before."""
+
 COME_BACK: Final = "Try again after the time in Retry-After."
 
 UNAVAILABLE: Final = problem(
@@ -189,13 +196,6 @@ def _final(child: Child) -> Received:
 def _told(reason: Problem) -> Received:
     return Received(ProblemMessage(problem=reason), {})
 
-
-SOCKET: Final = "questions"
-LOOK_S: Final = 0.02
-BACKLOG: Final = 128
-
-GIVEN_UP_S: Final = READY_WITHIN_S + (1 + MOST_WAITING) * ANSWER_WITHIN_S
-"""By then an owner that runs has answered, however long those took that were before."""
 
 Ask = Callable[[TaskMessage, Parts], Received]
 """Ask a question with its parts; whatever goes wrong is answered with a problem."""

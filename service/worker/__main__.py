@@ -5,7 +5,7 @@ It answers the API's questions at that address, and ends with it.
 
 import sys
 
-from service.startup.begin import begin, run_told
+from service.startup import begin, run_told
 from service.worker.main import run_worker
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from api_schemas.results import ResultFile
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord
+from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
 from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
 from service.numerics.messages import (
     DoneMessage,
@@ -35,12 +35,14 @@ from service.worker.endings import (
 )
 from service.worker.files import describe_file
 from service.worker.tasks import DERIVATION, OPTIONS, SECONDS, STAGE_SECONDS
-from service.worker.throttled_progress import ThrottledProgress
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 LOG: Final = logging.getLogger(__name__)
+
+CANCEL_POLL_S: Final = 0.1
+"""How often a running fit looks whether it was canceled."""
 
 WATCHDOG_S: Final = 1.0
 """Beyond the time limit, a child that stalls in the middle of a message is killed from outside."""
@@ -136,10 +138,10 @@ class JobRunner:
     def _follow(
         self, attempt: Attempt, child: Child, *, deadline: float
     ) -> "_Computed | AttemptResult":
-        progress = ThrottledProgress(attempt, interval_s=self._settings.progress_interval_s)
+        progress = ThrottledProgress(attempt)
         next_look = 0.0
         while True:
-            received = child.receive(self._settings.cancel_poll_s)
+            received = child.receive(CANCEL_POLL_S)
             if received is not None:
                 if not isinstance(received.message, ProgressMessage):
                     return _ended(received)
@@ -151,7 +153,7 @@ class JobRunner:
             if directive is None and now >= next_look:
                 directive = attempt.directive()
             if directive is not None:
-                next_look = now + self._settings.cancel_poll_s
+                next_look = now + CANCEL_POLL_S
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
 
@@ -192,3 +194,43 @@ def _ended(received: Received) -> _Computed | AttemptResult:
 def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
     """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
     return retry_with_pauses(BlobsUnavailableError, "storage")(operation)
+
+
+INTERVAL_S: Final = 0.2
+"""The shortest time between two stored reports of one stage."""
+
+
+class ThrottledProgress:
+    """Keeps the latest report back until the last stored one is old enough."""
+
+    def __init__(self, attempt: Attempt) -> None:
+        self._attempt = attempt
+        self._due = 0.0
+        self._news: tuple[str, int | None] | None = None
+        self._latest: ProgressMessage | None = None
+
+    def take(self, message: ProgressMessage) -> None:
+        """Take a report that came."""
+        news = (message.stage, message.view)
+        if news != self._news:
+            # A new stage, or the next picture, is news: it does not wait.
+            self._news = news
+            self._due = 0.0
+        self._latest = message
+
+    def store_if_due(self) -> Directive | None:
+        """Store the latest report, if there is one and it is time; then say whether to go on."""
+        now = time.monotonic()
+        if self._latest is None or now < self._due:
+            return None
+        directive = self._attempt.report(
+            Report(
+                stage=self._latest.stage,
+                progress=min(max(self._latest.progress, 0.0), 1.0),
+                energies=self._latest.energies,
+                view=self._latest.view,
+            )
+        )
+        self._latest = None
+        self._due = now + INTERVAL_S
+        return directive

@@ -80,7 +80,6 @@ def run_worker(
         max_crashes=settings.max_crashes,
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
-        queue_poll_s=settings.queue_poll_s,
         retention_s=settings.retention_s,
         disk=open_disk(settings),
         is_able=server.is_able,

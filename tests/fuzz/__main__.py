@@ -36,7 +36,6 @@ def main(arguments: Sequence[str]) -> int:
                 "max_crashes": 3,
                 "worker_processes": 2,
                 # Room for everything: what a quota turns away is not looked at.
-                "max_images_per_tenant": options.inputs,
                 "max_queued": options.inputs,
                 "max_queued_per_tenant": options.inputs,
             },

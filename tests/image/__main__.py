@@ -25,7 +25,7 @@ from tests.image.hosts import (
     running_postgres,
     two_hosts,
 )
-from tests.object_storage import CREDENTIALS, running_object_storage
+from tests.object_storage import CREDENTIALS, running_object_storage, variable
 
 PATIENCE_S: Final = 300.0
 FITS: Final = 3
@@ -79,7 +79,7 @@ def run_on_two_hosts(image: Image) -> None:
         settings = {
             "MAQUETTE_DATABASE_URL": database_url,
             "PGPASSWORD": POSTGRES_PASSWORD,
-            **{f"MAQUETTE_{name.upper()}": value for name, value in storage.settings.items()},
+            **dict(map(variable, storage.settings.items())),
             **CREDENTIALS,
             "MAQUETTE_WORKER_PROCESSES": "1",
         }

@@ -82,7 +82,7 @@ def _bucket(address: str = "127.0.0.1") -> Iterator[ObjectStorage]:
     # The server writes a line for every request.
     logging.getLogger("werkzeug").setLevel(logging.ERROR)
     with running_object_storage(address) as storage:
-        place = {"LocationConstraint": storage.settings["s3_region"]}
+        place = {"LocationConstraint": storage.settings["aws_default_region"]}
         storage.client.create_bucket(Bucket=storage.bucket, CreateBucketConfiguration=place)
         yield storage
 
@@ -94,7 +94,7 @@ def _storage(folder: Path, commands: Commands, *, manner: Manner) -> Iterator[Sc
         _bucket() as storage,
         storage_door(storage.endpoint_url) as door,
     ):
-        behind = storage.settings | {"s3_endpoint_url": door.endpoint_url}
+        behind = storage.settings | {"aws_endpoint_url_s3": door.endpoint_url}
         with _running(folder, commands, database_url=server.url, settings=behind) as running:
             yield Scene(deployment=running, begin=lambda: door.fail(manner), end=door.recover)
 

@@ -19,6 +19,7 @@ import sqlalchemy as sa
 from service.engine.database import open_database
 from service.engine.tables import JOBS
 from tests.integration.service.fake_pipeline import scripted_image
+from tests.object_storage import variable
 
 PATIENCE_S = 600.0
 """A guard against hanging: passing tests wait for none of it, however crowded the machine."""
@@ -51,9 +52,6 @@ QUICK: Mapping[str, object] = {
     "heartbeat_s": 0.2,
     # On one machine the dead are known by the process table, and those who live may be slow.
     "dead_after_s": 60.0,
-    "queue_poll_s": 0.05,
-    "cancel_poll_s": 0.05,
-    "progress_interval_s": 0.05,
     "worker_processes": 2,
     "drain_s": 5.0,
     "log_level": "INFO",
@@ -69,7 +67,6 @@ SHARED: Mapping[str, object] = {
     "webhook_secret": OWN_SECRET,
     # It idles while others are tested: every beat looks after all workers and their jobs.
     "heartbeat_s": 1.0,
-    "queue_poll_s": 0.1,
 }
 """What a service that files share is told besides."""
 
@@ -118,7 +115,7 @@ class Machine:
         values = {"data_dir": self.data_dir, "port": 0, **QUICK, **self.settings}
         if self.database_url is not None:
             values["database_url"] = self.database_url
-        variables = {f"MAQUETTE_{name.upper()}": str(value) for name, value in values.items()}
+        variables = dict(map(variable, values.items()))
         inherited = {
             name: value for name, value in os.environ.items() if not name.startswith("MAQUETTE_")
         }

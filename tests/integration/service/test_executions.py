@@ -9,8 +9,7 @@ from dbos import DBOSClient, DBOSPortableJSONSerializer
 from sqlalchemy.exc import OperationalError
 
 from service.engine.database import open_database, prepare_database
-from service.engine.executions import Executions
-from service.engine.queue import APPLICATION, EXECUTION_VERSION, WORKFLOW, queue_of
+from service.engine.executions import APPLICATION, EXECUTION_VERSION, WORKFLOW, Executions, queue_of
 from tests.integration.service.harness import PATIENCE_S, Machine
 
 NOBODY = "postgresql://postgres@127.0.0.1:1/none"

@@ -7,7 +7,7 @@ import pytest
 import sqlalchemy as sa
 
 from service.engine.database import open_database, prepare_database
-from service.engine.facts import read_fact, write_fact
+from service.engine.transactions import read_fact, write_fact
 from tests.integration.service.harness import PATIENCE_S, Machine
 
 FACT = "something"

@@ -19,9 +19,11 @@ def server() -> Iterator[ObjectStorage]:
 
 
 @pytest.fixture
-def _credentials(monkeypatch: pytest.MonkeyPatch) -> None:
+def _credentials(server: ObjectStorage, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, value in CREDENTIALS.items():
         monkeypatch.setenv(name, value)
+    monkeypatch.setenv("AWS_ENDPOINT_URL_S3", server.endpoint_url)
+    monkeypatch.setenv("AWS_DEFAULT_REGION", REGION)
 
 
 @pytest.fixture
@@ -33,7 +35,7 @@ def storage(server: ObjectStorage, request: pytest.FixtureRequest) -> ObjectStor
 
 @pytest.fixture
 def blobs(storage: ObjectStorage, _credentials: None) -> BlobStore:
-    store = open_blob_store(Settings(**storage.settings))
+    store = open_blob_store(Settings(blob_url=storage.blob_url))
     store.prepare()
     return store
 
@@ -91,22 +93,21 @@ def test_looking_whether_it_can_be_written_leaves_nothing(blobs, storage):
 @pytest.mark.usefixtures("_credentials")
 def test_a_bucket_that_is_not_there_is_said_so(storage):
     with pytest.raises(BlobsUnavailableError, match="NoSuchBucket"):
-        open_blob_store(Settings(**storage.settings)).check_writable()
+        open_blob_store(Settings(blob_url=storage.blob_url)).check_writable()
 
 
 @pytest.mark.usefixtures("_credentials")
 def test_a_server_that_is_not_there_is_said_so(monkeypatch):
     monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
-    nowhere = Settings(blob_url="s3://bucket", s3_endpoint_url="http://127.0.0.1:9", s3_region="x")
+    monkeypatch.setenv("AWS_ENDPOINT_URL_S3", "http://127.0.0.1:9")
     with pytest.raises(BlobsUnavailableError, match="cannot be reached"):
-        open_blob_store(nowhere).check_writable()
+        open_blob_store(Settings(blob_url="s3://bucket")).check_writable()
 
 
 @pytest.mark.usefixtures("_credentials")
 def test_preparing_makes_tables_and_bucket_and_may_be_repeated(storage, monkeypatch, tmp_path):
     monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
-    for name, value in storage.settings.items():
-        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", value)
+    monkeypatch.setenv("MAQUETTE_BLOB_URL", storage.blob_url)
     for _ in range(2):
         with pytest.raises(SystemExit) as ended:
             main(["prepare"])
@@ -121,9 +122,8 @@ def test_a_bucket_that_cannot_be_made_is_told_in_a_line(monkeypatch, tmp_path, c
     monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
     monkeypatch.setattr("service.process.retrying.RETRY_FOR_S", 0.0)
     monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
-    nowhere = {"blob_url": "s3://bucket", "s3_endpoint_url": "http://127.0.0.1:9"}
-    for name, value in (nowhere | {"s3_region": REGION}).items():
-        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", value)
+    monkeypatch.setenv("MAQUETTE_BLOB_URL", "s3://bucket")
+    monkeypatch.setenv("AWS_ENDPOINT_URL_S3", "http://127.0.0.1:9")
     with pytest.raises(SystemExit) as ended:
         main(["prepare"])
     assert ended.value.code == os.EX_UNAVAILABLE

@@ -18,6 +18,7 @@ import fitter.body
 from service.cli import main
 from service.setting_types import DETECTOR_FILES
 from tests.integration.service.harness import QUICK, Machine, eventually
+from tests.object_storage import variable
 from tests.postgres import SERVER, administration
 from tests.process_table import processes_with
 
@@ -45,7 +46,7 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     machine = Machine(folder, settings={"port": 0})
     at = {"ADDRESS": str(folder.parent / "questions")}
-    named = {f"MAQUETTE_{name.upper()}": str(value) for name, value in variables.items()}
+    named = dict(map(variable, variables.items()))
     done = subprocess.run(
         [sys.executable, *(at.get(each, each) for each in arguments)],
         env=machine.environment() | named,
@@ -225,7 +226,7 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
     becoming_nobody = (
         "import os, pwd, sys\n"
         "from service.commands.prepare import run_preflight\n"
-        "from service.startup.begin import begin, run_told\n"
+        "from service.startup import begin, run_told\n"
         "import service.engine.port, sqlalchemy.exc\n"
         "settings = begin('serve')\n"
         "os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"

@@ -26,7 +26,7 @@ JSON = "application/problem+json"
 @pytest.fixture
 def storage(storage: ObjectStorage) -> ObjectStorage:
     """One whose bucket is there."""
-    place = {"LocationConstraint": storage.settings["s3_region"]}
+    place = {"LocationConstraint": storage.settings["aws_default_region"]}
     storage.client.create_bucket(Bucket=storage.bucket, CreateBucketConfiguration=place)
     return storage
 
@@ -42,7 +42,7 @@ def test_a_storage_that_is_away_is_told_and_waited_for(
     storage: ObjectStorage, door: StorageDoor, manner: Manner, tmp_path: Path
 ):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    behind = {**storage.settings, "s3_endpoint_url": door.endpoint_url}
+    behind = {**storage.settings, "aws_endpoint_url_s3": door.endpoint_url}
     with running_service(Machine(tmp_path / "data", settings=behind)) as service:
         ended = service.submit()
         service.ended(ended)
@@ -69,7 +69,7 @@ def test_a_storage_that_is_away_is_told_and_waited_for(
 def test_a_storage_that_says_nothing_keeps_neither_probes_nor_other_routes_waiting(
     storage: ObjectStorage, door: StorageDoor, tmp_path: Path
 ):
-    behind = {**storage.settings, "s3_endpoint_url": door.endpoint_url}
+    behind = {**storage.settings, "aws_endpoint_url_s3": door.endpoint_url}
     with running_service(Machine(tmp_path / "data", settings=behind)) as service:
         door.fail(Manner.SAYS_NOTHING)
         eventually(lambda: _silence_is_told(service), what="the storage is known to be silent")

@@ -161,12 +161,6 @@ def test_hosts_for_notices_are_names_alone(hosts: str):
     assert Settings(webhook_hosts="localhost, 127.0.0.1, ::1").allowed_webhook_hosts
 
 
-def test_a_collector_is_named_by_its_web_address():
-    assert Settings(traces_endpoint="http://127.0.0.1:4318").traces_endpoint
-    with pytest.raises(ValidationError, match="https://"):
-        Settings(traces_endpoint="127.0.0.1:4318")
-
-
 def test_a_data_folder_has_a_name():
     with pytest.raises(ValidationError, match="name a folder"):
         Settings(data_dir="")

@@ -1,0 +1,152 @@
+"""How every command starts and ends: unusable settings are reported in one line."""
+
+import difflib
+import logging
+import os
+import sys
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from typing import Any, Final
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from service.process.logs import configure_logging
+from service.setting_types import NOT_SHOWN, without_secrets
+from service.settings import PREFIX, SettingError, Settings
+
+LOG: Final = logging.getLogger(__name__)
+
+UNUSABLE_SETTINGS: Final = os.EX_CONFIG
+"""Exit status 78: restarting is of no use, because settings or what they name cannot be used."""
+
+UNAVAILABLE: Final = os.EX_UNAVAILABLE
+"""Exit status 69: a database or storage did not answer within the time allowed."""
+
+NOTHING: Final[Mapping[str, object]] = {}
+
+
+def read_settings(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
+    """Read the settings of a command, or end it; options in ``given`` take precedence."""
+    try:
+        return Settings(**given)  # pyright: ignore[reportArgumentType]
+    except ValidationError as error:
+        for line in fault_lines(error, options=given):
+            print(f"maquette {command}: {line}", file=sys.stderr)
+        sys.exit(UNUSABLE_SETTINGS)
+
+
+def begin(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
+    """Read the settings of a long-running process, start logging, and warn of unknown names."""
+    settings = read_settings(command, given)
+    configure_logging(settings.log_level, settings.log_format)
+    warn_of_unknown_names()
+    return settings
+
+
+def warn_of_unknown_names() -> None:
+    """Say which variables look like settings but are not."""
+    for name, meant in unknown_names(os.environ).items():
+        hint = "it is ignored" if meant is None else f"did you mean {meant}?"
+        LOG.warning("There is no setting %s; %s", name, hint)
+
+
+def run_told(command: str, run: Callable[[], int | None]) -> int:
+    """Run a command; anything that then proves unusable or unavailable is reported in one line."""
+    try:
+        return run() or 0
+    except Exception as error:
+        told = _told(error)
+        if told is None:
+            raise
+        status, line = told
+        print(f"maquette {command}: {line}", file=sys.stderr)
+        return status
+
+
+def _told(error: Exception) -> tuple[int, str] | None:
+    """The exit status and the line for an error that is no fault of the program's."""
+    # Imported once something has failed: an estimator has no database, and this loads all of it.
+    from sqlalchemy.exc import OperationalError
+
+    from service.blobs import BlobsUnavailableError, StorageUnusableError
+    from service.engine.port import DatabaseUnusableError, EngineUnavailableError
+
+    if isinstance(error, DatabaseUnusableError | StorageUnusableError | SettingError):
+        return UNUSABLE_SETTINGS, str(error)
+    if isinstance(error, EngineUnavailableError | OperationalError):
+        cause = getattr(error, "orig", None) or error.__cause__ or "no answer"
+        line = " ".join(str(cause).split())
+        return UNAVAILABLE, f"the database is not available ({line})."
+    if isinstance(error, BlobsUnavailableError):
+        return UNAVAILABLE, f"the storage is not available ({error})."
+    return None
+
+
+ADDRESSES: Final = frozenset({"database_url", "blob_url"})
+SECRETS: Final = frozenset({"webhook_secret"})
+
+LONGEST_SHOWN: Final = 200
+LIKENESS: Final = 0.6
+"""How similar a name, after the prefix, must be to one of ours to be taken for a misspelling."""
+
+_BOUNDS: Final[Mapping[str, str]] = {
+    "greater_than": "it must be above {gt:g}",
+    "greater_than_equal": "it must be at least {ge:g}",
+    "less_than": "it must be below {lt:g}",
+    "less_than_equal": "it must be at most {le:g}",
+    "finite_number": "it must be a finite number",
+}
+
+
+def fault_lines(error: ValidationError, *, options: Collection[str] = ()) -> Iterator[str]:
+    """Describe every fault of the settings; ``options`` were given on the command line instead."""
+    for fault in error.errors():
+        name = str(fault["loc"][0]) if fault["loc"] else ""
+        option = f"--{name.replace('_', '-')}"
+        label = option if name in options else PREFIX + name.upper()
+        yield f"{label}={_shown(name, fault['input'])}: {_reason(name, fault)}."
+
+
+def unknown_names(environment: Mapping[str, str]) -> dict[str, str | None]:
+    """Variables named like settings that are none, each with the setting that may be meant."""
+    known = [name.upper() for name in Settings.model_fields]
+    named = {
+        name: name.upper().removeprefix(PREFIX)
+        for name in sorted(environment)
+        if name.upper().startswith(PREFIX)
+    }
+    return {name: _nearest(slip, known) for name, slip in named.items() if slip not in known}
+
+
+def _nearest(slip: str, known: Sequence[str]) -> str | None:
+    found = difflib.get_close_matches(slip, known, n=1, cutoff=LIKENESS)
+    return PREFIX + found[0] if found else None
+
+
+def _shown(name: str, value: object) -> str:
+    if name in SECRETS:
+        return NOT_SHOWN
+    text = without_secrets(str(value)) if name in ADDRESSES else str(value)
+    # One line, whatever is in it.
+    printable = "".join(each if each.isprintable() else "?" for each in text)
+    return printable if len(printable) <= LONGEST_SHOWN else f"{printable[:LONGEST_SHOWN]}..."
+
+
+def _reason(name: str, fault: ErrorDetails) -> str:
+    context: Mapping[str, Any] = fault.get("ctx", {})
+    if fault["type"] == "value_error":
+        return str(context["error"])
+    if "remedy" in context:  # a refusal of our own
+        return f"{context['reason'].rstrip('.')}. {context['remedy'].rstrip('.')}"
+    if fault["type"] in _BOUNDS:
+        reason = _BOUNDS[fault["type"]].format_map(context)
+    else:
+        reason = fault["msg"][:1].lower() + fault["msg"][1:]
+    return f"{reason}; {_way_out(name)}"
+
+
+def _way_out(name: str) -> str:
+    field = Settings.model_fields.get(name)
+    if field is None or field.default is None or field.default_factory is not None:
+        return "correct it, or unset it"
+    return f"correct it, or unset it for the default, {field.default}"

@@ -1,1 +1,0 @@
-"""How every process starts: its settings, and what is wrong with them."""
