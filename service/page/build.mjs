@@ -73,16 +73,10 @@ const loaded = (name) => [
     .flatMap((each) => loaded(each.path.split("/").pop())),
 ];
 const assets = [...weights.keys()].filter((name) => /\.(html|css|woff2|webp)$/.test(name));
-const WAYS = {
-  "with one picture": ["src/panel/Workbench.tsx"],
-  "from front and side": ["src/measure/MeasureView.tsx"],
-};
+const points = ["src/main.tsx", "src/panel/Workbench.tsx", "src/viewer/BodyScene.ts"];
+const names = new Set([...assets, ...points.flatMap((point) => loaded(entry(point).name))]);
 console.log(`${total(weights.keys())} bytes gzipped in all`);
-for (const [way, screens] of Object.entries(WAYS)) {
-  const points = ["src/main.tsx", "src/viewer/BodyScene.ts", ...screens];
-  const names = new Set([...assets, ...points.flatMap((point) => loaded(entry(point).name))]);
-  console.log(`${total(names)} bytes gzipped before a first result ${way}`);
-}
+console.log(`${total(names)} bytes gzipped before a first result`);
 
 async function thirdParty() {
   const texts = [];

@@ -1,11 +1,10 @@
 // The frame of the page: its head, and what the address asks for.
 import { useSignal } from "@preact/signals";
-import type { FitRef } from "./api/fits";
 import { entries, fits } from "./history/store";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
-import { Start } from "./panel/Start";
-import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit } from "./route";
+import { Start } from "./start/Start";
+import { START_ADDRESS, isOnAccuracy, isPreparing, openFit } from "./route";
 import { messages } from "./messages";
 import { isFull } from "./stage/full";
 import { announcement } from "./ui/announce";
@@ -17,7 +16,6 @@ import { theme, toggleTheme } from "./ui/theme";
 
 const AccuracyView = later(() => import("./accuracy/AccuracyView").then((loaded) => loaded.AccuracyView));
 const HistoryPanel = later(() => import("./history/HistoryPanel").then((loaded) => loaded.HistoryPanel), null);
-const MeasureView = later(() => import("./measure/MeasureView").then((loaded) => loaded.MeasureView));
 const Workbench = later(() => import("./panel/Workbench").then((loaded) => loaded.Workbench));
 
 export function App() {
@@ -36,16 +34,12 @@ export function App() {
           <span class="brand-name">Maquette</span>
         </a>
         <nav>
-          {fit?.kind === "fit" && (
+          {(fit || isPreparing.value) && (
             <a class="head-link" href={START_ADDRESS}>
               <Icon name="plus" />
               {frame.fresh}
             </a>
           )}
-          <a class="head-link" href={MEASURE_ADDRESS} aria-current={isMeasuring.value ? "page" : undefined}>
-            <Icon name="body" />
-            {frame.measure}
-          </a>
           <button class="head-link" type="button" onClick={() => (showsHistory.value = true)}>
             <Icon name="list" />
             {frame.history}
@@ -57,7 +51,7 @@ export function App() {
           <IconButton icon="theme" label={theme.value === "dark" ? frame.lightPage : frame.darkPage} onClick={toggleTheme} />
         </nav>
       </header>
-      <Screen fit={fit} />
+      <Screen />
       {showsHistory.value && <HistoryPanel onClose={() => (showsHistory.value = false)} />}
       <KeyDialog />
       <p class="unseen" role="status" aria-live="polite">
@@ -67,9 +61,9 @@ export function App() {
   );
 }
 
-function Screen({ fit }: { fit: FitRef | null }) {
-  if (fit) return <FitView key={fit.id} which={fit} />;
+function Screen() {
+  const fit = openFit.value;
+  if (fit) return <FitView key={fit} id={fit} />;
   if (isOnAccuracy.value) return <AccuracyView />;
-  if (isMeasuring.value) return <MeasureView />;
   return isPreparing.value ? <Workbench /> : <Start />;
 }

@@ -1,26 +1,24 @@
+import { effect } from "@preact/signals";
 import { render } from "preact";
 import { startWatchingConnection } from "./api/connection";
 import { App } from "./app";
-import { startLasting } from "./draft/lasting";
 import { startLive } from "./draft/live";
-import { startProposing } from "./draft/proposing";
-import { startCheckingClothes } from "./mask/clothes";
+import { listenForPaste } from "./draft/open";
+import { startFollowing } from "./draft/proposing";
 import { startMasks } from "./mask/edits";
-import { startProposingMasks } from "./mask/proposed";
-import { startMeasuring } from "./measure/places";
-import { listenForPaste } from "./panel/open";
+import { isOnAccuracy, openFit } from "./route";
 import { startFilling } from "./stage/full";
-import { startForgetting } from "./ui/forgetting";
+import { announce } from "./ui/announce";
 
-startMeasuring();
-startForgetting();
 startWatchingConnection();
+startFollowing();
 startLive();
-startProposing();
-startProposingMasks();
 startMasks();
 startFilling();
-startCheckingClothes();
-void startLasting();
 listenForPaste();
+// What was announced on one screen is not said on the next.
+effect(() => {
+  void [openFit.value, isOnAccuracy.value];
+  announce("");
+});
 render(<App />, document.getElementById("page")!);

@@ -27,12 +27,3 @@ def visitor(browser: Browser, service: httpx.Client) -> Iterator[Visitor]:
     """Someone at a desk, with the page before them; nothing may have gone wrong at the end."""
     with Visitor.at(browser, str(service.base_url)) as someone:
         yield someone
-
-
-@pytest.fixture
-def bare_fit(service: httpx.Client, finished_fit: str) -> str:
-    """The id of that fit, of which nothing is made yet, whatever other tests made of it."""
-    derivations = f"/v1/fits/{finished_fit}/derivations"
-    for each in service.get(derivations).raise_for_status().json()["derivations"]:
-        service.delete(each["links"]["self"]).raise_for_status()
-    return finished_fit

@@ -1,15 +1,13 @@
 """Limbs of a result are turned the other way: seen at once, and then fitted again."""
 
-import json
 import re
 
 import numpy as np
 from playwright.sync_api import Page, Request, expect
 
-from service.demo_data.sample import load_sample
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.test_result import as_if, open_fit
-from tests.e2e.page.visitor import SAMPLE_SIZE, Visitor
+from tests.e2e.page.visitor import SAMPLE_POINTS, SAMPLE_SIZE, Visitor
 
 __all__ = ("axe",)
 
@@ -19,12 +17,12 @@ SAYS = {"toward": "toward you", "away": "away from you"}
 
 def facings(visitor: Visitor, fit: str) -> dict[str, str]:
     result = visitor.page.request.get(f"{visitor.origin}/v1/fits/{fit}/result").json()
-    return {each["limb"]: each["facing"] for each in result["limb_facing"]}
+    return {each["limb"]: each["facing"] for each in result["views"][0]["limb_facing"]}
 
 
 def on_forearm(visitor: Visitor, side: str) -> tuple[float, float]:
     """Within the canvas, where the sample's forearm is seen."""
-    points = json.loads(load_sample().request)["points"]
+    points = SAMPLE_POINTS
     ends = [points[f"{side}_{joint}"] for joint in ("elbow", "wrist")]
     box = visitor.body.bounding_box()
     assert box is not None
@@ -77,7 +75,7 @@ def test_a_limb_that_is_clicked_is_seen_turned_and_fitted_again(
     assert changed[row - 20 : row + 20, column - 20 : column + 20].mean() > 0.1
     assert changed[int(0.7 * height) :].mean() < 0.002
     visitor.wait_for_change(beside, side, share=0.004)
-    assert sent_again(page).post_data_json["limb_facing"] == {"right_forearm": wanted}
+    assert sent_again(page).post_data_json["views"][0]["limb_facing"] == {"right_forearm": wanted}
     page.wait_for_function("was => !location.hash.endsWith(was)", arg=finished_fit)
     visitor.wait_for_result()
     fresh = page.locator("[data-fit]").get_attribute("data-fit")
@@ -130,7 +128,7 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
         }
         for name, facing in found.items()
     ]
-    as_if(visitor, limb_facing=doubted)
+    as_if(visitor, {"limb_facing": doubted})
     open_fit(visitor, finished_fit)
     page = visitor.page
     page.get_by_role("button", name="If you see which, say so").press("Enter")
@@ -159,5 +157,5 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
         lambda request: request.method == "POST" and request.url.endswith("/v1/fits")
     ) as sent:
         page.keyboard.press("Enter")
-    assert sent.value.post_data_json["limb_facing"] == {"right_shin": wanted}
+    assert sent.value.post_data_json["views"][0]["limb_facing"] == {"right_shin": wanted}
     visitor.wait_for_result()

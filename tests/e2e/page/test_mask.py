@@ -1,4 +1,4 @@
-"""The mask before the fit: seen, corrected by brushes, sent only if it was; and loose clothes."""
+"""The mask before the fit: seen, corrected by brushes, sent only if it was."""
 
 import base64
 import io
@@ -13,11 +13,9 @@ from playwright.sync_api import Browser, Page, expect
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.test_proposals import WOMAN, drop
 from tests.e2e.page.visitor import DESK, PHONE, STAGE_MARGIN, Visitor
-from tests.evaluation.files import PICTURES_FOLDER
 
 __all__ = ["axe"]
 
-CLOTHED = PICTURES_FOLDER / "clothed_man_middle_aged_middling.jpg"
 PICTURE_SIZE = (540, 720)
 CORNER, HEART = (60.0, 60.0), (265.0, 270.0)
 """A spot of the wall and one of the person."""
@@ -84,7 +82,7 @@ def test_the_mask_is_seen_with_the_points_and_not_sent_unless_edited(visitor: Vi
     expect(page.get_by_role("heading", name="Mask of the person")).to_be_visible()
     expect(page.get_by_role("img", name="The picture with the mask")).to_be_visible()
     ready_to_fit(page)
-    assert "mask_id" not in visitor.sent_request()
+    assert "mask_id" not in visitor.sent_view()
 
 
 def test_what_brushes_add_and_remove_reaches_the_fit(visitor: Visitor, service: httpx.Client):
@@ -100,8 +98,8 @@ def test_what_brushes_add_and_remove_reaches_the_fit(visitor: Visitor, service: 
     with page.expect_response(
         lambda answer: answer.request.method == "POST" and answer.url.endswith("/v1/fits")
     ) as answered:
-        assert "mask_id" in visitor.sent_request()
-    sent = service.get(answered.value.json()["links"]["mask"]).raise_for_status()
+        assert "mask_id" in visitor.sent_view()
+    sent = service.get(answered.value.json()["links"]["files"]["views/0/mask"]).raise_for_status()
     assert sent.headers["content-type"] == "image/png"
     mask = np.asarray(Image.open(io.BytesIO(sent.content)).convert("L"))
     assert mask.shape == PICTURE_SIZE[::-1]
@@ -134,7 +132,7 @@ def test_strokes_are_undone_redone_and_discarded(visitor: Visitor):
     tools.get_by_role("button", name="Done").click()
     expect(visitor.points()).to_have_count(21)
     ready_to_fit(page)
-    assert "mask_id" not in visitor.sent_request()
+    assert "mask_id" not in visitor.sent_view()
 
 
 def test_brushes_need_no_pointer(visitor: Visitor):
@@ -211,33 +209,6 @@ def test_a_finger_paints_and_two_zoom(browser: Browser, service: httpx.Client):
         touch("touchEnd")
         visitor.wait_for_width(picture, 1.5 * box["width"])
         expect(undo).to_be_disabled()
-
-
-def test_loose_clothes_said_to_be_close_are_asked_about_and_never_switched(visitor: Visitor):
-    page = visitor.page
-    drop(visitor, CLOTHED.read_bytes())
-    visitor.correct()
-    question = page.get_by_text("The clothes look loose.")
-    page.get_by_role("heading", name="What the fit goes by").click()
-    expect(page.get_by_role("radio", name="As seen")).to_be_checked()
-    expect(question).not_to_be_attached()
-    page.get_by_role("radio", name="Close-fitting or none").check()
-    expect(question).to_be_visible()
-    page.get_by_role("button", name="Yes, loose clothes").click()
-    expect(page.get_by_role("radio", name="Loose", exact=True)).to_be_checked()
-    expect(question).not_to_be_attached()
-    page.get_by_role("radio", name="Male", exact=True).check()
-    assert visitor.sent_request()["clothing"] == "loose"
-
-
-def test_of_underwear_nothing_is_asked(visitor: Visitor):
-    page = visitor.page
-    with page.expect_response("**/v1/checks") as checked:
-        drop(visitor, WOMAN.read_bytes())
-    assert checked.value.json()["usable"]
-    visitor.correct()
-    expect(page.get_by_role("heading", name="Mask of the person")).to_be_visible()
-    expect(page.get_by_text("The clothes look loose.")).not_to_be_attached()
 
 
 @pytest.mark.parametrize(

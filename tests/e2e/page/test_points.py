@@ -1,7 +1,4 @@
-"""Placing points: by mouse, by keys, from files; taking back what went wrong."""
-
-import json
-import math
+"""Placing points: by mouse, by keys; taking back what went wrong."""
 
 import pytest
 from playwright.sync_api import expect
@@ -87,25 +84,6 @@ def test_points_can_be_skipped_hidden_removed_and_swapped(clicking: Visitor):
     expect(clicking.points()).to_have_count(0)
 
 
-def test_swapped_sides_are_asked_about_and_mended_by_one_click(clicking: Visitor):
-    page = clicking.page
-    # Left and right as one sees them, not as the person has them.
-    for x, y in ((251.4, 225.2), (438.3, 220.5)):
-        page.mouse.click(*clicking.on_stage(x, y))
-    question = page.get_by_text("These points show a person from behind")
-    expect(question).to_be_visible()
-    left, right = clicking.place_of("left_shoulder"), clicking.place_of("right_shoulder")
-    page.get_by_role("button", name="They face me: swap").click()
-    expect(question).to_be_hidden()
-    clicking.wait_for_place("left_shoulder", right)
-    clicking.wait_for_place("right_shoulder", left)
-    page.keyboard.press("Control+z")
-    expect(question).to_be_visible()
-    page.get_by_role("button", name="I see their back").click()
-    expect(question).to_be_hidden()
-    clicking.wait_for_place("left_shoulder", left)
-
-
 def test_all_of_it_works_without_a_mouse(clicking: Visitor):
     page = clicking.page
     clicking.stage.focus()
@@ -147,26 +125,3 @@ def test_the_picture_zooms_about_the_pointer_and_pans(clicking: Visitor):
         arg=[picture.element_handle(), wide["x"] + 60],
     )
     expect(clicking.points()).to_have_count(1)
-
-
-def test_points_go_to_a_coco_file_and_come_back(clicking: Visitor, tmp_path):
-    page = clicking.page
-    clicking.click_points(LIMBS)
-    page.get_by_text("Points from and to files").click()
-    with page.expect_download() as download:
-        page.get_by_role("button", name="Save as COCO").click()
-    file = tmp_path / "points.json"
-    download.value.save_as(file)
-    annotation = json.loads(file.read_text())["annotations"][0]
-    assert annotation["num_keypoints"] == len(LIMBS)
-    left_shoulder = annotation["keypoints"][15:18]
-    assert math.dist(left_shoulder[:2], (438.3, 220.5)) < 1.5
-    page.get_by_role("button", name="Clear").click()
-    expect(clicking.points()).to_have_count(0)
-    page.get_by_label("Read points from a COCO JSON file").set_input_files(file)
-    expect(clicking.points()).to_have_count(len(LIMBS))
-    bad = tmp_path / "bad.json"
-    bad.write_text("{}")
-    page.get_by_label("Read points from a COCO JSON file").set_input_files(bad)
-    expect(page.get_by_role("alert")).to_contain_text("neither COCO annotations")
-    expect(clicking.points()).to_have_count(len(LIMBS))

@@ -90,7 +90,7 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
         height.click()
         page.keyboard.type("168")
         expect(page.locator(".live-outline")).to_be_attached()
-        sent = visitor.sent_request()
+        sent = visitor.sent_view()
         taps = page.evaluate("window.taps")
         assert taps <= MOST_TAPS
         assert {each["source"] for each in sent["points"].values()} == {"proposal"}
@@ -99,7 +99,7 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
         expect(page.get_by_role("row", name=re.compile("^Height"))).to_contain_text("168")
         # Counted, not named.
         expect(
-            page.locator(".panel .note", has_text="All points were found automatically")
+            page.locator(".panel .note", has_text="21 points were found automatically")
         ).to_be_visible()
 
 
@@ -124,7 +124,7 @@ def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_agai
     expect(ring).to_be_attached()
     page.keyboard.press("Control+Shift+z")
     visitor.describe_person()
-    points = visitor.sent_request()["points"]
+    points = visitor.sent_view()["points"]
     assert "source" not in points.pop("left_wrist")
     assert {each["source"] for each in points.values()} == {"proposal"}
 
@@ -154,7 +154,7 @@ def test_doubtful_points_are_asked_about_and_nothing_waits_for_the_answers(visit
     page.keyboard.press("Control+z")
     expect(question).to_have_text("Are these the right toes?")
     page.get_by_role("button", name="Leave out").click()
-    points = visitor.sent_request()["points"]
+    points = visitor.sent_view()["points"]
     assert "right_toe" not in points
     said = {name: (points[name]["visibility"], points[name].get("source")) for name in asked[:3]}
     assert said["left_ankle"] == (2, None)

@@ -1,4 +1,4 @@
-"""The result as it is looked at: how good it is, what is shown first, and in which room."""
+"""The result as it is looked at: how good it is, and what is shown first."""
 
 import json
 import re
@@ -12,12 +12,16 @@ from playwright.sync_api import Browser, Route, expect
 from tests.e2e.page.visitor import FIT_WITHIN_MS, LABELS_ARE_SEEN, PHONE, Visitor
 
 RESULT = re.compile(r"/v1/fits/[0-9a-f-]{36}/result(\?|$)")
-GOOD_AND_SURE: dict[str, Any] = {"outcome": "converged", "verdict": "plausible"}
+SURE: dict[str, Any] = {"outcome": "converged", "findings": [], "warnings": []}
 
 
-def as_if(visitor: Visitor, **changed: Any) -> None:
-    """Let the page read another result than the fit's."""
-    visitor.page.route(RESULT, rewritten(lambda result: result | changed))
+def as_if(visitor: Visitor, view: dict[str, Any] | None = None, **changed: Any) -> None:
+    """Let the page read another result than the fit's, also of its picture."""
+
+    def other(result: dict) -> dict:
+        return result | {"views": [result["views"][0] | (view or {})]} | changed
+
+    visitor.page.route(RESULT, rewritten(other))
 
 
 def rewritten(change: Callable[[dict], dict]) -> Callable[[Route], None]:
@@ -36,20 +40,19 @@ def open_fit(visitor: Visitor, fit: str) -> None:
 def test_the_first_line_says_how_good_a_fit_is_and_intervals_are_explained(
     visitor: Visitor, finished_fit: str
 ):
-    as_if(visitor, **GOOD_AND_SURE, silhouette_overlap=0.953, warnings=[])
+    as_if(visitor, SURE, verdict="plausible", warnings=[])
     open_fit(visitor, finished_fit)
     first = visitor.page.locator(".result-head p").first
-    expect(first).to_have_text("Good: body and outline overlap by 95%.")
+    expect(first).to_have_text("Good: nothing is in doubt.")
     expect(visitor.page.get_by_text("the true value lies in it 95% of the time")).to_be_visible()
     expect(visitor.page.locator(".is-unreliable")).to_have_count(0)
 
 
 def test_measurements_of_a_poor_fit_are_grey_and_say_why(visitor: Visitor, finished_fit: str):
-    as_if(visitor, outcome="poor_fit", verdict="plausible", silhouette_overlap=0.79)
+    as_if(visitor, {"outcome": "poor_fit"}, verdict="plausible")
     open_fit(visitor, finished_fit)
     page = visitor.page
     expect(page.locator("[data-grade]")).to_have_attribute("data-grade", "poor")
-    expect(page.get_by_text("Poor: body and outline overlap by only 79%.")).to_be_visible()
     expect(page.get_by_text("Shown in grey because the body does not fit")).to_be_visible()
     expect(page.get_by_text("the true value lies in it")).to_have_count(0)
     value, soft = (
@@ -57,21 +60,6 @@ def test_measurements_of_a_poor_fit_are_grey_and_say_why(visitor: Visitor, finis
         for where in (".measures.is-unreliable tbody .number", ".panel .fine")
     )
     assert value == soft
-
-
-def test_light_and_skin_of_a_body_that_the_picture_contradicts_are_not_told(
-    visitor: Visitor, finished_fit: str
-):
-    as_if(visitor, outcome="poor_fit", verdict="implausible", measurements=[])
-    open_fit(visitor, finished_fit)
-    visitor.page.get_by_role("heading", name="For experts").click()
-    facts = visitor.page.locator(".experts .facts").first
-    expect(facts).to_have_class("facts is-unreliable")
-    expect(facts.get_by_text("Overlap with the silhouette")).to_be_visible()
-    for name in ("Light", "Skin"):
-        expect(facts.get_by_text(name, exact=True)).to_have_count(0)
-    expect(visitor.page.locator(".measures")).to_have_count(0)
-    expect(visitor.page.get_by_role("button", name="Measure anyway")).to_be_visible()
 
 
 @pytest.mark.parametrize("size", [(640, 360), (720, 450), (853, 573)], ids=str)
@@ -175,17 +163,16 @@ def test_tapes_are_labelled_and_marked_from_the_table_and_from_the_body(
 
 
 def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
-    browser: Browser, service: httpx.Client, bare_fit: str
+    browser: Browser, service: httpx.Client, finished_fit: str
 ):
     """On a phone without scrolling; the skin is asked for once, by the page itself."""
     with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
-        open_fit(visitor, bare_fit)
+        open_fit(visitor, finished_fit)
         page = visitor.page
         figures = page.locator(".figures")
         for name in ("Chest", "Waist", "Hip", "Weight"):
             expect(figures.get_by_text(name, exact=True)).to_be_in_viewport(ratio=1)
         expect(figures).to_contain_text(re.compile(r"Chest\s*[\d.]+ cm\s*[\d.]+ – [\d.]+"))
-        expect(visitor.body).to_be_in_viewport(ratio=1)
         visitor.wait_until_drawn(placement="canonical")
         beside = page.locator(".look-beside canvas")
         expect(beside).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
@@ -193,21 +180,13 @@ def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
         skin = page.get_by_role("img", name="The textured body; arrow keys turn it")
         expect(skin).to_have_attribute("data-shows", "texture")
         expect(page.get_by_role("radio", name="Skin", exact=True)).to_be_checked()
-        # It is the body's own view: nothing that was made besides.
-        expect(page.get_by_role("heading", name="Make something of it")).to_be_attached()
-        expect(page.locator(".derived > li")).to_have_count(0)
-        page.reload()
-        expect(beside).to_have_attribute("data-shows", "texture")
-        made = service.get(f"/v1/fits/{bare_fit}/derivations").json()["derivations"]
-        assert [each["kind"] for each in made] == ["texture"]
 
 
-@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
 def test_on_the_narrowest_phone_nothing_is_wider_than_the_window(
-    browser: Browser, service: httpx.Client, finished_fit: str, locale: str
+    browser: Browser, service: httpx.Client, finished_fit: str
 ):
     narrow = {"viewport": {"width": 320, "height": 568}}
-    with Visitor.at(browser, str(service.base_url), narrow, locale=locale) as visitor:
+    with Visitor.at(browser, str(service.base_url), narrow) as visitor:
         visitor.page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
         visitor.wait_for_result()
         assert not visitor.page.evaluate("document.documentElement.scrollWidth > innerWidth")

@@ -7,10 +7,10 @@ import httpx
 import pytest
 from playwright.sync_api import Browser, expect
 
-from service.demo_data.sample import FOLDER, load_sample
+from service.demo_data.sample import FOLDER
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.test_proposals import NOT_INSTALLED
-from tests.e2e.page.visitor import DESK, LIMBS, PHONE, Visitor
+from tests.e2e.page.visitor import DESK, LIMBS, PHONE, SAMPLE_POINTS, Visitor
 
 __all__ = ["axe"]
 
@@ -46,7 +46,7 @@ def test_every_spot_of_the_picture_can_be_tapped(
         visitor.wait_for_whole_picture()
         corners = [(4.0, 4.0), (716.0, 4.0), (4.0, 956.0), (716.0, 956.0), (360.0, 956.0)]
         assert all(page.evaluate(LIES_ON_STAGE, visitor.on_stage(*each)) for each in corners)
-        points = json.loads(load_sample().request)["points"]
+        points = SAMPLE_POINTS
         for name in LIMBS[-2:]:
             page.mouse.click(*visitor.on_stage(points[name]["x"], points[name]["y"]))
         expect(visitor.points()).to_have_count(len(LIMBS))
@@ -140,7 +140,7 @@ def test_what_each_point_is_can_be_read_whole_above_the_picture(
         page.route(
             "**/v1/points", lambda route: route.fulfill(**refused, body=json.dumps(NOT_INSTALLED))
         )
-        page.locator(".start-ways input[type=file]").set_input_files(FOLDER / "sample.jpg")
+        page.locator(".drop input[type=file]").set_input_files(FOLDER / "sample.jpg")
         visitor.wait_for_stage()
         page.locator(".next-line.is-guided").wait_for()
         visitor.stage.focus()

@@ -26,6 +26,7 @@ SETTLED = {"reduced_motion": "reduce"}
 """What moves without end is drawn without end, in software: only its own tests let it."""
 
 SAMPLE_SIZE = (720, 960)
+SAMPLE_POINTS = json.loads(load_sample().request)["views"][0]["points"]
 SAMPLES = {"At ease": "sample", "Upright": "woman", "An arm across": "arm_across"}
 STAGE_MARGIN = 16
 GIVEN_UP_AFTER_MS = 60_000
@@ -76,7 +77,7 @@ LABELS_ARE_SEEN = """() => {
 }"""
 RESULT_IS_SHOWN = """() => {
   const shown = document.querySelector(".bench[data-fit]:has(.body-canvas)");
-  return shown !== null && /^#[/](fits|scans)[/]/.test(location.hash) &&
+  return shown !== null && /^#[/]fits[/]/.test(location.hash) &&
     location.hash.endsWith(shown.dataset.fit);
 }"""
 
@@ -161,7 +162,7 @@ class Visitor:
 
     @contextlib.contextmanager
     def without_news(self) -> Iterator[None]:
-        """Let the page hear nothing of fits and scans meanwhile, however fast they end."""
+        """Let the page hear nothing of fits meanwhile, however fast they end."""
         held: list[Route] = []
         holding = True
 
@@ -171,7 +172,7 @@ class Visitor:
             else:
                 route.continue_()
 
-        paths = re.compile(r"/v1/(fits|scans)/[0-9a-f-]{36}(/events)?$")
+        paths = re.compile(r"/v1/fits/[0-9a-f-]{36}(/events)?$")
         self.page.route(paths, hold)
         try:
             yield
@@ -209,7 +210,7 @@ class Visitor:
 
     def click_points(self, names: Sequence[str] = LIMBS, *, touch: bool = False) -> None:
         """Click points of the sample where its request has them."""
-        points = json.loads(load_sample().request)["points"]
+        points = SAMPLE_POINTS
         for name in names:
             at = self.on_stage(points[name]["x"], points[name]["y"])
             if touch:
@@ -237,6 +238,11 @@ class Visitor:
     def submit(self) -> None:
         self.page.get_by_role("button", name="Fit the body").click()
 
+    def sent_view(self) -> dict[str, Any]:
+        """Submit, and return what was asked of the one picture."""
+        (view,) = self.sent_request()["views"]
+        return view
+
     def sent_request(self) -> dict[str, Any]:
         """Submit, and return what was asked of the service."""
         with self.page.expect_request(
@@ -254,10 +260,10 @@ class Visitor:
         return self.page.locator(".body-canvas")
 
     def wait_until_drawn(
-        self, *, placement: str, surface: str = "clay", cues: str = "SES", marked: str = "none"
+        self, *, placement: str, surface: str = "clay", marked: str = "none"
     ) -> np.ndarray:
         """Wait until the canvas shows this, and return what is seen."""
-        shows = f"{placement} {surface} {cues} {marked}"
+        shows = f"{placement} {surface} {marked}"
         expect(self.body).to_have_attribute("data-shows", shows)
         return self.pixels(self.body)
 

@@ -17,7 +17,7 @@ function glb(extra: object): ArrayBuffer {
       { byteOffset: 36, byteLength: 12 },
       { byteOffset: 48, byteLength: 6 },
     ],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 0, _ALBEDO: 1 }, indices: 2 }] }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 0, _SPECULARITY: 1 }, indices: 2 }] }],
     nodes: [{ name: "body" }],
     ...extra,
   };
@@ -36,9 +36,9 @@ function glb(extra: object): ArrayBuffer {
 test("arrays are read from where the document says, absent ones are null", () => {
   const body = readGlb(glb({}));
   assert.deepEqual([...body.positions], POSITIONS);
-  assert.deepEqual([...body.albedo!], [0.25, 0.5, 0.75]);
+  assert.deepEqual([...body.specularity!], [0.25, 0.5, 0.75]);
   assert.deepEqual([...body.triangles], [2, 1, 0]);
-  assert.equal(body.specularity, null);
+  assert.equal(body.colours, null);
   assert.equal(body.camera, null);
   assert.equal(body.light, null);
 });
@@ -54,21 +54,6 @@ test("a directional light is read as the way toward it", () => {
   // A quarter turn about y takes +z to +x.
   assert.ok(body.light!.vector.every((value, i) => Math.abs(value - [1, 0, 0][i]!) < 1e-12));
   assert.equal(body.light!.colourScale, 1.5);
-});
-
-test("light of the surroundings and the body's own shadow are read where they are told", () => {
-  const surroundings = [1, 2, 3, 4, 5, 6, 7, 8, 9];
-  const extras = { ambient: 0, specular_exponent: 12, colour_scale: 1, distance_m: 3, surroundings };
-  const attributes = { POSITION: 0, NORMAL: 0, _LIT: 1 };
-  const body = readGlb(
-    glb({
-      meshes: [{ primitives: [{ attributes, indices: 2 }] }],
-      nodes: [{ name: "light", translation: [1, 2, 3] }],
-      extensions: { KHR_lights_punctual: { lights: [{ type: "point", extras }] } },
-    }),
-  );
-  assert.deepEqual(body.light!.surroundings, surroundings);
-  assert.deepEqual([...body.lit!], [0.25, 0.5, 0.75]);
 });
 
 test("a texture is read with its places, and whether its light is in it", async () => {

@@ -47,19 +47,7 @@ test("a known code is said in the page's words, an unknown one is left to the se
   assert.equal(answered("faults", "toString"), null);
   assert.equal(fieldName("measurements.hip_girth.value"), "Hip");
   assert.equal(fieldName("points.left_hip"), "Left hip");
+  assert.equal(fieldName("views.1.points.left_hip"), "Picture 2, Left hip");
   assert.equal(fieldName("body.some_field"), "body.some field");
 });
 
-test("of a size chart the page says itself what is odd, without names of fields", () => {
-  for (const code of ["chart-gap", "chart-overlap"]) assert.match(answered("warnings", code) ?? "", /sizes of the chart/);
-});
-
-test("every file of the recorded examples says what it is", () => {
-  const names = new Set<string>();
-  JSON.parse(readFileSync("../../api_schemas/openapi.json", "utf8"), (key, value) => {
-    if (key === "artifacts" && Array.isArray(value)) for (const { name } of value) names.add(name.replace(/_\d+\./, "_N."));
-    return value;
-  });
-  assert.ok(names.has("texture.jpg"));
-  assert.deepEqual([...names].filter((name) => !Object.hasOwn(messages.files.labels, name)), []);
-});

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LIMB_POINTS, POINT_NAMES, mirrored } from "../../../service/page/src/points/catalogue";
-import { COCO_NAMES, cocoFile, readPoints } from "../../../service/page/src/points/coco";
+import { LIMB_POINTS, mirrored } from "../../../service/page/src/points/catalogue";
+import { namedPoints } from "../../../service/page/src/points/named";
 import {
   NO_POINTS,
   ask,
@@ -17,7 +17,6 @@ import {
 import { advance, amend, begin, redo, undo } from "../../../service/page/src/points/timeline";
 
 const some = place(place(NO_POINTS, "left_shoulder", 10, 20), "right_hip", 30.5, 40.25);
-const picture = { name: "a.jpg", width: 100, height: 200 };
 
 test("points are asked for in the catalogue's order, past those placed and skipped", () => {
   assert.equal(nextPoint(NO_POINTS), "left_shoulder");
@@ -54,42 +53,11 @@ test("moving a hidden point keeps it hidden", () => {
   assert.equal(place(hidden, "right_hip", 1, 1).placed.right_hip!.hidden, true);
 });
 
-test("points written as COCO are read back, hidden ones and those beyond COCO too", () => {
-  const all = POINT_NAMES.reduce((points, name, i) => place(points, name, i + 0.25, 2 * i), NO_POINTS);
-  const written = toggleHidden(all, "left_knee");
-  assert.deepEqual(readPoints(cocoFile(written, picture)).placed, written.placed);
-});
-
-test("a COCO file holds 17 keypoints in COCO's order, zeros for absent ones", () => {
-  const { annotations, categories } = JSON.parse(cocoFile(some, picture));
-  assert.deepEqual(categories[0].keypoints, COCO_NAMES);
-  const { keypoints, num_keypoints, bbox } = annotations[0];
-  assert.equal(keypoints.length, 51);
-  assert.deepEqual(keypoints.slice(15, 18), [10, 20, 2]);
-  assert.deepEqual(keypoints.slice(0, 3), [0, 0, 0]);
-  assert.equal(num_keypoints, 2);
-  assert.deepEqual(bbox, [10, 20, 20.5, 20.25]);
-});
-
-test("keypoints of others are read: flat, in rows, several people, or by name", () => {
-  const flat = COCO_NAMES.flatMap((_, i) => [i, i, i === 0 ? 0 : 1]);
-  const rows = COCO_NAMES.map((_, i) => [i, i, i === 0 ? 0 : 1]);
-  for (const content of [flat, rows, { keypoints: flat }, { annotations: [{ keypoints: flat.map(() => 0) }, { keypoints: flat }] }]) {
-    const { placed } = readPoints(JSON.stringify(content));
-    assert.equal(Object.keys(placed).length, 16);
-    assert.deepEqual(placed.left_ear, { x: 3, y: 3, hidden: true, proposed: false });
-  }
-  const named = readPoints('{"points": {"nose": [1, 2], "left_hip": {"x": 3, "y": 4, "visibility": 1}, "tail": [5, 6]}}');
-  assert.deepEqual(named.placed, {
+test("points by name are read as requests have them, others are left out", () => {
+  assert.deepEqual(namedPoints({ nose: [1, 2], left_hip: { x: 3, y: 4, visibility: 1 }, chin: [5, 6, 0], tail: [5, 6] }), {
     nose: { x: 1, y: 2, hidden: false, proposed: false },
     left_hip: { x: 3, y: 4, hidden: true, proposed: false },
   });
-});
-
-test("a file without points is refused with what is missing", () => {
-  assert.throws(() => readPoints("x"), /not JSON/);
-  assert.throws(() => readPoints('{"a": 1}'), /COCO annotations/);
-  assert.throws(() => readPoints("[]"), /COCO annotations/);
 });
 
 test("undo and redo walk the same steps, and a drag is one step", () => {

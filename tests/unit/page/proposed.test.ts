@@ -1,9 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { PointsProposal } from "../../../service/page/src/api/types";
-import { NOBODY } from "../../../service/page/src/draft/person";
-import { subjectOf } from "../../../service/page/src/draft/request";
-import { namedPoints } from "../../../service/page/src/points/coco";
 import {
   NO_POINTS,
   ask,
@@ -18,7 +15,6 @@ import {
   swapSides,
 } from "../../../service/page/src/points/placed";
 import { countProposed, hasProposed, isAllProposed, personAt, proposedPoints } from "../../../service/page/src/points/proposed";
-import { sideDoubt, swapped } from "../../../service/page/src/points/sides";
 import { advance, amend, begin, redo, undo } from "../../../service/page/src/points/timeline";
 import { FOUND, proposalOf } from "./proposals";
 
@@ -75,25 +71,8 @@ test("undoing a drag makes a click a proposal again, and undoing the proposal le
   assert.equal(undo(undo(dragged)).present, NO_POINTS);
 });
 
-test("sides are swapped with their doubts, all of them or some", () => {
+test("sides are swapped with their doubts", () => {
   assert.deepEqual(swapSides(proposed).doubts, ["right_ankle", "left_wrist"]);
-  assert.deepEqual(swapped(proposed, ["left_ankle"]).doubts, ["right_ankle", "right_wrist"]);
-});
-
-test("untouched proposals are sent as such, all others as clicks, and come back so", () => {
-  const points = confirm(place(proposed, "nose", 5, 6), "left_ankle");
-  const sent = subjectOf("female", NOBODY, points, null, {}).points as Record<string, object>;
-  assert.deepEqual(sent.nose, { x: 5, y: 6, visibility: 2 });
-  const { x, y } = FOUND.points.left_knee!;
-  assert.deepEqual(sent.left_knee, { x, y, visibility: 2, source: "proposal" });
-  assert.equal("source" in sent.left_ankle!, false);
-  assert.deepEqual(namedPoints(sent), points.placed);
-});
-
-test("a face that was only proposed does not say that sides are swapped: a back may have one", () => {
-  const back = swapSides(proposed);
-  assert.equal(sideDoubt(back)?.kind, "behind");
-  assert.equal(sideDoubt(confirm(back, "nose"))?.kind, "facing");
 });
 
 test("who is tapped on is the one whose middle is nearer, and nobody outside all boxes", () => {

@@ -1,28 +1,17 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import type { PointsProposal } from "../../../service/page/src/api/types";
-import { change, points, timeline, uploaded } from "../../../service/page/src/draft/draft";
-import {
-  canPropose,
-  choosePersonAt,
-  clickAll,
-  forgetProposal,
-  isProposing,
-  others,
-  proposal,
-  proposalProblem,
-  proposalWord,
-  propose,
-  proposeFirst,
-  startProposing,
-} from "../../../service/page/src/draft/proposing";
+import type { PointsProposal, UploadedImage } from "../../../service/page/src/api/types";
+import { addView, beginWith, canPropose, change, current, newView, points, timeline, views } from "../../../service/page/src/draft/draft";
+import type { Picture } from "../../../service/page/src/draft/picture";
+import { choosePersonAt, clickAll, isProposing, others, proposal, proposalWord, propose, startFollowing } from "../../../service/page/src/draft/proposing";
 import { NO_POINTS, place } from "../../../service/page/src/points/placed";
 import { isAllProposed } from "../../../service/page/src/points/proposed";
-import { begin, undo } from "../../../service/page/src/points/timeline";
+import { undo } from "../../../service/page/src/points/timeline";
 import { FOUND, NOBODY_FOUND, proposalOf } from "./proposals";
 
-const KEPT = { id: "a picture" } as NonNullable<typeof uploaded.value>;
+const KEPT = { id: "a picture" } as UploadedImage;
 const TWO = [[0, 0, 100, 200], [200, 0, 300, 200]] as const;
+const picture = (kept: UploadedImage | null = null) => ({ name: "a", file: new Blob(), url: "blob:a", kept }) as Picture;
 
 /** What was asked of the service, and what it answers. */
 let asked: { path: string; body: { image_id: string; person: number | null } }[];
@@ -36,26 +25,28 @@ const settled = async () => {
   for (let i = 0; i < 5; i++) await new Promise((done) => setTimeout(done));
 };
 
-startProposing();
+startFollowing();
 
 beforeEach(() => {
   asked = [];
   globalThis.fetch = async (path, init) => {
+    if (path === "/v1/images") return Response.json(KEPT);
     asked.push({ path: String(path), body: JSON.parse(String(init?.body)) });
     return answer();
   };
-  forgetProposal();
   canPropose.value = true;
-  uploaded.value = null;
-  timeline.value = begin(NO_POINTS);
+  beginWith([]);
 });
 
-test("points are asked for once the picture is there, and taking them back leaves none", async () => {
+/** A picture that the service has already. */
+function open(): void {
+  beginWith([newView(picture(KEPT), 0)]);
+}
+
+test("a picture is uploaded, its points are asked for, and taking them back leaves none", async () => {
   answer = found(FOUND);
-  proposeFirst();
-  assert.equal(asked.length, 0);
+  beginWith([newView(picture(), 0)]);
   assert.equal(isProposing.value, true);
-  uploaded.value = KEPT;
   await settled();
   assert.deepEqual(asked.map(({ path, body }) => [path, body.image_id, body.person]), [["/v1/points", "a picture", null]]);
   assert.equal(isAllProposed(points.value), true);
@@ -64,27 +55,33 @@ test("points are asked for once the picture is there, and taking them back leave
   assert.equal(points.value, NO_POINTS);
 });
 
+test("every picture of several is followed", async () => {
+  answer = found(FOUND);
+  open();
+  addView(picture(KEPT));
+  await settled();
+  assert.equal(asked.length, 2);
+  assert.ok(views.value.every((view) => isAllProposed(view.timeline.value.present)));
+});
+
 test("who has begun to click goes on, until they ask for proposals", async () => {
   answer = found(FOUND);
-  proposeFirst();
+  open();
   change(place(NO_POINTS, "nose", 1, 2));
-  uploaded.value = KEPT;
   await settled();
   assert.deepEqual(Object.keys(points.value.placed), ["nose"]);
-  propose();
-  await settled();
-  assert.equal(isAllProposed(points.value), true);
-  clickAll();
-  assert.equal(points.value, NO_POINTS);
-  propose();
-  await settled();
-  assert.equal(isAllProposed(points.value), true);
+  for (let times = 0; times < 2; times++) {
+    propose();
+    await settled();
+    assert.equal(isAllProposed(points.value), true);
+    clickAll();
+    assert.equal(points.value, NO_POINTS);
+  }
 });
 
 test("nobody found is said, and nothing is placed", async () => {
   answer = found(NOBODY_FOUND);
-  proposeFirst();
-  uploaded.value = KEPT;
+  open();
   await settled();
   assert.equal(points.value, NO_POINTS);
   assert.match(proposalWord.value!, /Nobody was found/);
@@ -94,8 +91,7 @@ test("nobody found is said, and nothing is placed", async () => {
 
 test("among several a tap chooses another one, until a point is clicked", async () => {
   answer = found(proposalOf(TWO));
-  proposeFirst();
-  uploaded.value = KEPT;
+  open();
   await settled();
   assert.equal(others.value.length, 2);
   choosePersonAt(50, 100);
@@ -123,13 +119,12 @@ test("among several a tap chooses another one, until a point is clicked", async 
 
 test("a service without the detector is asked once, and no problem is told", async () => {
   answer = refused(404, "detector-not-installed");
-  proposeFirst();
-  uploaded.value = KEPT;
+  open();
   await settled();
   assert.equal(canPropose.value, false);
-  assert.equal(proposalProblem.value, null);
-  forgetProposal();
-  proposeFirst();
+  assert.equal(current.value!.proposalProblem.value, null);
+  assert.equal(isProposing.value, false);
+  open();
   await settled();
   assert.equal(asked.length, 1);
   assert.equal(isProposing.value, false);
@@ -137,15 +132,14 @@ test("a service without the detector is asked once, and no problem is told", asy
 
 test("another problem is told, and asking again may help", async () => {
   answer = refused(503, "not-ready");
-  proposeFirst();
-  uploaded.value = KEPT;
+  open();
   await settled();
-  assert.equal(proposalProblem.value?.code, "not-ready");
+  assert.equal(current.value!.proposalProblem.value?.code, "not-ready");
   assert.equal(canPropose.value, true);
   answer = found(FOUND);
   propose();
   await settled();
-  assert.equal(proposalProblem.value, null);
+  assert.equal(current.value!.proposalProblem.value, null);
   assert.equal(isAllProposed(points.value), true);
 });
 
@@ -157,10 +151,8 @@ test("an answer about the picture before is not taken", async () => {
     init?.signal?.throwIfAborted();
     return Response.json(FOUND);
   };
-  proposeFirst();
-  uploaded.value = KEPT;
-  forgetProposal();
-  uploaded.value = null;
+  open();
+  beginWith([]);
   release();
   await settled();
   assert.equal(points.value, NO_POINTS);

@@ -1,15 +1,17 @@
 // The calls this page makes, one function each.
-import type { ServiceIndex } from "./service_index";
 import { jsonBody, request, requestJson } from "./client";
-import { askedOfFit, fitOfJob, fitOfScan, pathOf, resultOfFit, resultOfScan } from "./fits";
-import type { Asked, Fit, FitKind, FitRef, Result } from "./fits";
-import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanResult, UploadedImage } from "./types";
+import type { Fit, FitRequest, FitResult, InitialPose, InitialPoseRequest, PointsOfImage, PointsProposal, Product, ProductRequest, UploadedImage } from "./types";
+
+/** What the root of the service answers to programs (api_schemas/service.py); the API document describes `/v1` alone. */
+interface ServiceIndex {
+  readonly retention_hours: number | null;
+}
 
 export function getIndex(): Promise<ServiceIndex> {
   return requestJson("/", { headers: { Accept: "application/json" } });
 }
 
-export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
+export function uploadImage(file: Blob, signal = new AbortController().signal): Promise<UploadedImage> {
   const form = new FormData();
   form.append("image", file, "picture");
   return requestJson("/v1/images", { method: "POST", body: form, signal });
@@ -23,87 +25,53 @@ export function proposePoints(asked: PointsOfImage, signal: AbortSignal): Promis
   return requestJson("/v1/points", { ...jsonBody(asked), signal });
 }
 
-export function checkCapture(asked: CheckOfImage, signal: AbortSignal): Promise<CaptureCheck> {
-  return requestJson("/v1/checks", { ...jsonBody(asked), signal });
+/** Every view has the id of its picture. */
+export function submitFit(asked: FitRequest): Promise<Fit> {
+  return requestJson("/v1/fits", jsonBody(asked));
 }
 
-export async function submitFit(asked: FitOfImage): Promise<Fit> {
-  return fitOfJob(await requestJson("/v1/fits", jsonBody(asked)));
+export function getFit(id: string): Promise<Fit> {
+  return requestJson(`/v1/fits/${id}`);
 }
 
-export async function submitScan(asked: ScanOfImages): Promise<Fit> {
-  return fitOfScan(await requestJson("/v1/scans", jsonBody(asked)));
+export function cancelFit(id: string): Promise<Fit> {
+  return requestJson(`/v1/fits/${id}/cancel`, { method: "POST" });
 }
 
-export async function getFit(which: FitRef): Promise<Fit> {
-  return fitOf(which.kind, await requestJson(pathOf(which)));
+export async function eraseFit(id: string): Promise<void> {
+  await request(`/v1/fits/${id}`, { method: "DELETE" });
 }
 
-export async function cancelFit(which: FitRef): Promise<Fit> {
-  return fitOf(which.kind, await requestJson(`${pathOf(which)}/cancel`, { method: "POST" }));
+export function getResult(id: string): Promise<FitResult> {
+  return requestJson(`/v1/fits/${id}/result`);
 }
 
-export async function eraseFit(which: FitRef): Promise<void> {
-  await request(pathOf(which), { method: "DELETE" });
+export function getAsked(id: string): Promise<FitRequest> {
+  return requestJson(`/v1/fits/${id}/request`);
 }
 
-export async function getResult({ kind, links }: Fit): Promise<Result> {
-  const found = await requestJson<FitResult | ScanResult>(`${links.result ?? `${links.self}/result`}?include=stages`);
-  return kind === "fit" ? resultOfFit(found as FitResult) : resultOfScan(found as ScanResult);
-}
+/** So long the service may take to answer with what is there at once, or soon. */
+const WAIT_S = 20;
 
-export async function getAsked({ kind, links }: Fit): Promise<Asked> {
-  const asked = await requestJson<FitOptions | Asked>(links.request);
-  return kind === "fit" ? askedOfFit(asked as FitOptions) : (asked as Asked);
-}
-
-function fitOf(kind: FitKind, told: Job | Scan): Fit {
-  return kind === "fit" ? fitOfJob(told as Job) : fitOfScan(told as Scan);
-}
-
-/** All of them, newest first. */
-export async function listDerivations({ links }: Fit): Promise<readonly Derivation[]> {
-  const list: Derivation[] = [];
-  for (let path: string | null = `${links.self}/derivations`; path; ) {
-    const page: DerivationPage = await requestJson(path);
-    list.push(...page.derivations);
-    path = page.next;
+/** Ask for something to be made of a fit; `part` is a file that comes along, under the name of its form part. */
+export function makeProduct(fitId: string, asked: ProductRequest, part: { name: string; file: File } | null, signal: AbortSignal): Promise<Product> {
+  const path = `/v1/fits/${fitId}/products`;
+  const headers = { Prefer: `wait=${WAIT_S}` };
+  if (!part) {
+    const { headers: json, ...body } = jsonBody(asked);
+    return requestJson(path, { ...body, headers: { ...json, ...headers }, signal });
   }
-  return list;
-}
-
-/** Ask for a derivation; `part` is the file it goes by, under the name of its form part. */
-export function derive({ links }: Fit, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
-  const path = `${links.self}/derivations`;
-  if (!part) return requestJson(path, jsonBody(asked));
   const form = new FormData();
   form.append("request", new Blob([JSON.stringify(asked)], { type: "application/json" }), "request.json");
   form.append(part.name, part.file, part.file.name);
-  return requestJson(path, { method: "POST", body: form });
+  return requestJson(path, { method: "POST", body: form, headers, signal });
 }
 
-export function getDerivation(path: string): Promise<Derivation> {
-  return requestJson(path);
+export function getProduct({ links }: Product, signal: AbortSignal): Promise<Product> {
+  return requestJson(links.self, { signal });
 }
 
-/** What was asked for. */
-export function getAskedDerivation({ links }: Derivation): Promise<DerivationRequest> {
-  return requestJson(links.request);
-}
-
-export function getDerivationResult({ links }: Derivation): Promise<DerivationResult> {
-  return requestJson(links.result ?? `${links.self}/result`);
-}
-
-export function retryDerivation({ links }: Derivation): Promise<Derivation> {
-  return requestJson(`${links.self}/retry`, { method: "POST" });
-}
-
-export async function eraseDerivation({ links }: Derivation): Promise<void> {
-  await request(links.self, { method: "DELETE" });
-}
-
-/** The picture of a fit or a scan as every browser shows it: a HEIC comes as a JPEG. */
+/** A fit's picture as every browser shows it: a HEIC comes as a JPEG. */
 export async function getPicture(path: string): Promise<Blob> {
   return (await request(path, { headers: { Accept: "image/png, image/webp, image/jpeg" } })).blob();
 }

@@ -31,7 +31,7 @@ export async function requestJson<T>(path: string, init: RequestInit = {}): Prom
   return (await (await request(path, init)).json()) as T;
 }
 
-export function jsonBody(value: unknown): RequestInit {
+export function jsonBody(value: unknown): { method: string; headers: Record<string, string>; body: string } {
   return {
     method: "POST",
     headers: { "Content-Type": "application/json" },

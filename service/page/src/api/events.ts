@@ -1,11 +1,11 @@
-// A job's events to their end, resumed where a connection broke off.
+// A fit's events to their end, resumed where a connection broke off.
 import { request, untilReached } from "./client";
 import { EventParser } from "./sse";
 import type { EventData } from "./types";
 
 const RECONNECT_MS = 1000;
 
-export async function* jobEvents(path: string, signal: AbortSignal): AsyncGenerator<EventData> {
+export async function* fitEvents(path: string, signal: AbortSignal): AsyncGenerator<EventData> {
   let seen = "";
   for (;;) {
     const headers: Record<string, string> = seen === "" ? {} : { "Last-Event-ID": seen };

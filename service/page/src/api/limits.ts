@@ -5,12 +5,8 @@ import type { PointName, TextureSize } from "./types";
 export const LIMITS = {
   limbPoints: stated.points.least_limb_points,
   trunkPoints: stated.points.least_trunk_points,
-  clearBreadth: stated.points.clear_breadth,
   heightM: [stated.height_m.least, stated.height_m.most],
   textureSizes: stated.texture_sizes as readonly TextureSize[],
-  leastSidePx: stated.picture.least_side,
-  largestAspectRatio: stated.picture.largest_aspect_ratio,
-  otherFits: stated.most_other_fits,
 } as const;
 
 /** COCO's seventeen points come first. */

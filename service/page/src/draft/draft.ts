@@ -1,47 +1,92 @@
-// The fit that is being prepared: a few signals, and what follows from them.
+// The fit that is being prepared: a person, and one to six pictures of them, one of which is looked at.
 import { batch, computed, signal } from "@preact/signals";
-import type { FitRef } from "../api/fits";
-import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
+import type { Signal } from "@preact/signals";
+import type { Clothing, Cues, Facing, Limb, PointsProposal, Problem, UploadedImage, ViewKind } from "../api/types";
 import { messages } from "../messages";
+import type { Stroke } from "../mask/strokes";
 import type { PointName } from "../points/catalogue";
 import { NO_POINTS, isEnough, nextDoubt, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
 import { advance, amend, begin } from "../points/timeline";
+import type { Timeline } from "../points/timeline";
+import { viewLabels } from "../messages/viewNames";
 import { NOBODY, heightFault, tapeFault, weightFault } from "./person";
 import type { Person } from "./person";
 import type { Picture } from "./picture";
 
-export const picture = signal<Picture | null>(null);
-/** The fit of several pictures that this is one of, and which; null of a picture that is fitted alone. */
-export const oneOf = signal<(FitRef & { readonly number: number }) | null>(null);
-/** Of an earlier visit, and nobody has gone on with it yet: nothing of it is sent. */
-export const isAsleep = signal(false);
-export const uploaded = signal<UploadedImage | null>(null);
+/** Whose points the service is to propose. */
+export interface Wish {
+  /** Place among the persons found; null leaves the choice to the service. */
+  readonly person: number | null;
+  /** Somebody asked: what there is may be replaced. */
+  readonly replaces: boolean;
+}
 
-export const timeline = signal(begin<Points>(NO_POINTS));
-export const points = computed(() => timeline.value.present);
-export const upcoming = computed(() => nextPoint(points.value));
-/** The proposed point that is asked about. */
-export const doubted = computed(() => nextDoubt(points.value));
+/** A picture with all that is said of it. */
+export interface DraftView {
+  readonly picture: Picture;
+  /** From where it shows the person; of one picture alone nobody asks. */
+  readonly view: Signal<ViewKind>;
+  readonly uploaded: Signal<UploadedImage | null>;
+  /** Why the service did not take it. */
+  readonly problem: Signal<Problem | null>;
+  readonly wish: Signal<Wish | null>;
+  /** The last answer about this picture: points, mask and findings. */
+  readonly proposal: Signal<PointsProposal | null>;
+  readonly proposalProblem: Signal<Problem | null>;
+  readonly timeline: Signal<Timeline<Points>>;
+  /** Who is the person and who is not, white on black; null leaves it to the proposal. */
+  readonly mask: Signal<Picture | null>;
+  /** What brushes did to the mask. */
+  readonly strokes: Signal<Timeline<readonly Stroke[]>>;
+  /** 35 mm equivalent chosen by eye; null leaves it to the picture's own data, or to be assumed. */
+  readonly focalLength: Signal<number | null>;
+  readonly clothing: Signal<Clothing>;
+  readonly facing: Signal<Readonly<Partial<Record<Limb, Facing>>>>;
+}
+
+/** In the order in which pictures are added. */
+const KINDS: readonly ViewKind[] = ["front", "side", "back", "other"];
+
+export const MOST_VIEWS = 6;
+
+const NO_STROKES: readonly Stroke[] = [];
+
+export const views = signal<readonly DraftView[]>([]);
+const at = signal(0);
+/** The picture that is looked at; null while there is none. */
+export const current = computed<DraftView | null>(() => views.value[at.value] ?? null);
+
+export const person = signal<Person>(NOBODY);
+export const cues = signal<Cues>("SES");
+/** Whether what there is to correct before a fit is shown. */
+export const isCorrecting = signal(false);
 /** The point that keys move, hide and delete. */
 export const selected = signal<PointName | null>(null);
 
-export const person = signal<Person>(NOBODY);
-/** 35 mm equivalent chosen by eye; null leaves it to the picture's own data, or to be assumed. */
-export const focalLength = signal<number | null>(null);
-/** The light shown on the ball; null leaves it to the fit. */
-export const light = signal<LightGuess | null>(null);
-/** Whether ambient light is taken as even, or as coming from everywhere by direction. */
-export const surroundings = signal<Surroundings>("uniform");
-export const clothing = signal<Clothing>("auto");
-export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
-export const cues = signal<Cues>("SES");
-/** Who is the person and who is not, white on black; null leaves it to the fit. */
-export const mask = signal<Picture | null>(null);
-/** Whether what there is to correct before a fit is shown. */
-export const isCorrecting = signal(false);
-/** Somebody said that the person turns their back. */
-export const seenFromBehind = signal(false);
+/** What belongs to a picture, of the one that is looked at; there has to be one. */
+function ofCurrent<T>(pick: (view: DraftView) => Signal<T>): { value: T } {
+  return {
+    get value() {
+      return pick(current.value!).value;
+    },
+    set value(next: T) {
+      pick(current.value!).value = next;
+    },
+  };
+}
+
+export const timeline = ofCurrent((view) => view.timeline);
+export const mask = ofCurrent((view) => view.mask);
+export const strokes = ofCurrent((view) => view.strokes);
+export const focalLength = ofCurrent((view) => view.focalLength);
+export const clothing = ofCurrent((view) => view.clothing);
+export const facing = ofCurrent((view) => view.facing);
+
+export const points = computed<Points>(() => current.value?.timeline.value.present ?? NO_POINTS);
+export const upcoming = computed(() => nextPoint(points.value));
+/** The proposed point that is asked about. */
+export const doubted = computed(() => nextDoubt(points.value));
 
 export function change(next: Points): void {
   timeline.value = advance(timeline.value, next);
@@ -51,47 +96,98 @@ export function adjust(next: Points): void {
   timeline.value = amend(timeline.value, next);
 }
 
-/** Nothing is known of whoever comes next but the units they are told in. */
-export function forgetPerson(): void {
-  person.value = { ...NOBODY, units: person.value.units };
+/** Nothing is said of it yet, but from where it may show the person. */
+export function newView(picture: Picture, number: number): DraftView {
+  return {
+    picture,
+    view: signal<ViewKind>(KINDS[number] ?? "other"),
+    uploaded: signal(picture.kept),
+    problem: signal<Problem | null>(null),
+    wish: signal<Wish | null>({ person: null, replaces: false }),
+    proposal: signal<PointsProposal | null>(null),
+    proposalProblem: signal<Problem | null>(null),
+    timeline: signal(begin<Points>(NO_POINTS)),
+    mask: signal<Picture | null>(null),
+    strokes: signal(begin(NO_STROKES)),
+    focalLength: signal<number | null>(null),
+    clothing: signal<Clothing>("auto"),
+    facing: signal<Readonly<Partial<Record<Limb, Facing>>>>({}),
+  };
 }
 
-/** With another picture, or without one, everything begins anew; only the units stay. */
-export function usePicture(next: Picture | null): void {
+/** With other pictures, or without one, everything begins anew; only the units stay. */
+export function beginWith(next: readonly DraftView[]): void {
   batch(() => {
-    if (picture.value) URL.revokeObjectURL(picture.value.url);
-    picture.value = next;
-    oneOf.value = null;
-    isAsleep.value = false;
-    uploaded.value = null;
-    timeline.value = begin<Points>(NO_POINTS);
-    selected.value = null;
-    forgetPerson();
-    facing.value = {};
-    focalLength.value = null;
-    light.value = null;
-    surroundings.value = "uniform";
-    clothing.value = "auto";
+    views.value = next;
+    person.value = { ...NOBODY, units: person.value.units };
     cues.value = "SES";
-    seenFromBehind.value = false;
     isCorrecting.value = false;
-    useMask(null);
+    lookAt(0);
+  });
+}
+
+export function lookAt(number: number): void {
+  batch(() => {
+    at.value = number;
+    selected.value = null;
+  });
+}
+
+/** Another picture of the same person. */
+export function addView(picture: Picture): void {
+  batch(() => {
+    views.value = [...views.value, newView(picture, views.value.length)];
+    lookAt(views.value.length - 1);
+  });
+}
+
+/** Another picture in the place of the one that is looked at. */
+export function replaceView(picture: Picture): void {
+  const before = current.value!;
+  const next = newView(picture, at.value);
+  next.view.value = before.view.value;
+  batch(() => {
+    views.value = views.value.map((each) => (each === before ? next : each));
+    selected.value = null;
+  });
+}
+
+export function removeView(): void {
+  batch(() => {
+    views.value = views.value.filter((each) => each !== current.value);
+    lookAt(0);
   });
 }
 
 export function useMask(next: Picture | null): void {
   if (mask.value) URL.revokeObjectURL(mask.value.url);
-  mask.value = next;
+  batch(() => {
+    mask.value = next;
+    strokes.value = begin(NO_STROKES);
+  });
+}
+
+/** Whether this service can propose points, as far as is known. */
+export const canPropose = signal(true);
+
+/** Whether the service is still to say where the points of a picture are. */
+export function isAwaiting({ wish, timeline: line, problem }: DraftView): boolean {
+  const { placed } = line.value.present;
+  return canPropose.value && wish.value !== null && problem.value === null && (wish.value.replaces || Object.keys(placed).length === 0);
 }
 
 /** Why there can be no fit yet, as a thing to do; null when there can. */
 export const todo = computed<string | null>(() => {
   const { todo } = messages.person;
-  if (!picture.value) return todo.picture;
+  if (views.value.length === 0) return todo.picture;
   if (person.value.gender === null) return todo.gender;
   if (heightFault(person.value) !== null) return todo.height;
   if (weightFault(person.value) !== null) return todo.weight;
   if (tapeFault(person.value) !== null) return todo.tape;
-  if (!isEnough(points.value)) return todo.points;
-  return null;
+  const bare = views.value.findIndex((each) => !isAwaiting(each) && !isEnough(each.timeline.value.present));
+  if (bare < 0) return null;
+  return views.value.length === 1 ? todo.points : todo.pointsOf(labels.value[bare]!);
 });
+
+/** By which each of several pictures is told from the others. */
+export const labels = computed(() => viewLabels(views.value.map(({ view }) => ({ view: view.value }))));

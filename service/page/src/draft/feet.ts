@@ -11,9 +11,9 @@ const INCHES_FROM = 20;
 const LOST_M = 0.00045;
 
 const NUMBER = String.raw`(\d+(?:[.,]\d*)?|[.,]\d+)`;
-/** "5'11", "5 ft 11.7 in", "5 Fuß 11". */
-const FEET_AND_INCHES = new RegExp(String.raw`^${NUMBER}\s*(?:ft\.?|feet|foot|fu(?:ß|ss)|['’′])\s*(?:${NUMBER}\s*(?:in\.?|inch(?:es)?|zoll|["”″]|''|’’)?)?$`, "i");
-const INCHES = new RegExp(String.raw`^${NUMBER}\s*(?:in\.?|inch(?:es)?|zoll|["”″]|'')$`, "i");
+/** "5'11", "5 ft 11.7 in". */
+const FEET_AND_INCHES = new RegExp(String.raw`^${NUMBER}\s*(?:ft\.?|feet|foot|['’′])\s*(?:${NUMBER}\s*(?:in\.?|inch(?:es)?|["”″]|''|’’)?)?$`, "i");
+const INCHES = new RegExp(String.raw`^${NUMBER}\s*(?:in\.?|inch(?:es)?|["”″]|'')$`, "i");
 
 /** A number, null for nothing, NaN for what is no number. */
 export function read(text: string): number | null {

@@ -1,13 +1,13 @@
-// What follows the draft by itself: the upload of its picture, and the body its clicks make.
-import { effect, signal, untracked } from "@preact/signals";
+// The body that the points of a picture make, while they are placed.
+import { effect, signal } from "@preact/signals";
 import { initialPose } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { UNREACHABLE, isOffline, pauseMs } from "../api/connection";
 import type { InitialPose, Problem } from "../api/types";
 import { isEnough } from "../points/placed";
-import { isAsleep, picture, points, todo, uploaded } from "./draft";
-import { draftedInitialPose, draftedSubject } from "./request";
-import { uploadProblem, uploadUntilKept } from "./uploading";
+import { current, person, points } from "./draft";
+import { heightFault, tapeFault, weightFault } from "./person";
+import { initialPoseRequest } from "./request";
 
 /** The body of the clicks so far; stays while a newer one is on its way. */
 export const liveBody = signal<InitialPose | null>(null);
@@ -17,22 +17,10 @@ const PAUSE_MS = 60;
 
 export function startLive(): void {
   effect(() => {
-    const chosen = picture.value;
-    uploadProblem.value = null;
-    if (!chosen || isAsleep.value) return undefined;
-    if (chosen.kept) {
-      uploaded.value = chosen.kept;
-      return undefined;
-    }
-    const leaving = new AbortController();
-    // Once a picture, whatever else a request looks at.
-    untracked(() => void uploadUntilKept(chosen.file, leaving.signal));
-    return () => leaving.abort();
-  });
-  effect(() => {
-    const chosen = picture.value;
-    const subject = draftedSubject();
-    if (!chosen || isAsleep.value || !subject || !isEnough(points.value) || todo.value !== null) {
+    const view = current.value;
+    const { gender } = person.value;
+    const isClear = heightFault(person.value) === null && weightFault(person.value) === null && tapeFault(person.value) === null;
+    if (!view || gender === null || !isClear || !isEnough(points.value)) {
       liveBody.value = null;
       liveProblem.value = null;
       return undefined;
@@ -40,7 +28,7 @@ export function startLive(): void {
     // Asked for once there is a connection again.
     if (isOffline.value) return undefined;
     const leaving = new AbortController();
-    const asked = draftedInitialPose(subject, chosen.width, chosen.height, uploaded.value?.id ?? null);
+    const asked = initialPoseRequest(view, gender);
     const ask = (attempts: number) =>
       initialPose(asked, leaving.signal).then(
         (body) => {

@@ -1,6 +1,6 @@
 // What is known of the person, as typed; nothing typed means unknown.
 import { LIMITS } from "../api/limits";
-import type { FitOptions, Gender, KnownMeasurements } from "../api/types";
+import type { FitRequest, Gender, KnownMeasurements } from "../api/types";
 import { decimal, measured, typed } from "../messages/figures";
 import { messages } from "../messages";
 import { INCH_M, feetAndInches, feetTexts, read, readInches } from "./feet";
@@ -135,7 +135,7 @@ export function heightInWords(height: number, units: Person["units"]): string {
 }
 
 /** The person of a request, to tell fits apart by: "Woman, 165 cm". */
-export function personInWords(asked: Pick<FitOptions, "gender" | "height_m">, units: Person["units"]): string {
+export function personInWords(asked: Pick<FitRequest, "gender" | "height_m">, units: Person["units"]): string {
   const { words } = messages.person;
   const who = words[asked.gender];
   if (asked.height_m == null) return who;

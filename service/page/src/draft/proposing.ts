@@ -1,32 +1,22 @@
-// Points proposed by the service: asked for as soon as the picture is there, or by a button.
-import { batch, computed, effect, signal } from "@preact/signals";
-import { proposePoints } from "../api/calls";
-import { problemFrom } from "../api/client";
+// What follows a picture by itself: its upload, and the points, the mask and the findings that the service answers.
+import { batch, computed, effect, untracked } from "@preact/signals";
+import { proposePoints, uploadImage } from "../api/calls";
+import { ProblemError, problemFrom } from "../api/client";
+import { UNREACHABLE, pause, pauseMs } from "../api/connection";
 import type { PointsProposal, Problem } from "../api/types";
 import { listed } from "../messages/figures";
 import { messages } from "../messages";
 import { NO_POINTS } from "../points/placed";
 import { countProposed, isAllProposed, personAt, proposedPoints } from "../points/proposed";
+import { advance, begin } from "../points/timeline";
 import { announce } from "../ui/announce";
-import { change, doubted, points, selected, timeline, uploaded } from "./draft";
-import { uploadProblem } from "./uploading";
-
-interface Wish {
-  /** Place among the persons found; null leaves the choice to the service. */
-  readonly person: number | null;
-  /** Somebody asked: what there is may be replaced. */
-  readonly replaces: boolean;
-}
+import { canPropose, change, current, doubted, isAwaiting, points, selected, views } from "./draft";
+import type { DraftView, Wish } from "./draft";
 
 const NOT_INSTALLED = "detector-not-installed";
 
-const wish = signal<Wish | null>(null);
-/** The last answer about this picture. */
-export const proposal = signal<PointsProposal | null>(null);
-export const proposalProblem = signal<Problem | null>(null);
-/** Whether this service can propose points, as far as is known. */
-export const canPropose = signal(true);
-export const isProposing = computed(() => wish.value !== null && uploadProblem.value === null);
+export const proposal = computed(() => current.value?.proposal.value ?? null);
+export const isProposing = computed(() => current.value !== null && isAwaiting(current.value));
 /** Everybody found, where somebody may be meant whose points are not those proposed. */
 export const others = computed(() => {
   const persons = proposal.value?.persons ?? [];
@@ -43,39 +33,14 @@ export const proposalWord = computed(() => {
   return null;
 });
 
-export interface ProposalSoFar {
-  readonly proposal: PointsProposal | null;
-  readonly isAwaited: boolean;
-}
-
-export const proposalSoFar = computed<ProposalSoFar>(() => ({ proposal: proposal.value, isAwaited: wish.value !== null }));
-
-export function restoreProposal({ proposal: found, isAwaited }: ProposalSoFar): void {
-  forgetProposal();
-  proposal.value = found;
-  if (isAwaited) proposeFirst();
-}
-
-/** Nothing is known of the picture that comes next. */
-export function forgetProposal(): void {
-  wish.value = null;
-  proposal.value = null;
-  proposalProblem.value = null;
-}
-
-/** Propose points of a new picture, unless somebody clicks first. */
-export function proposeFirst(): void {
-  if (canPropose.value) wish.value = { person: null, replaces: false };
-}
-
 /** Propose points in place of those there are. */
 export function propose(person: number | null = points.value.person ?? proposal.value?.person ?? null): void {
-  wish.value = { person, replaces: true };
+  current.value!.wish.value = { person, replaces: true };
 }
 
 /** No proposals: all points are clicked. */
 export function clickAll(): void {
-  wish.value = null;
+  current.value!.wish.value = null;
   change(NO_POINTS);
   selected.value = null;
 }
@@ -86,44 +51,104 @@ export function choosePersonAt(x: number, y: number): void {
   if (person !== null && person !== points.value.person) propose(person);
 }
 
-export function startProposing(): void {
+/** Follow every picture of the draft for as long as it is one of them. */
+export function startFollowing(): void {
+  const followed = new Map<DraftView, () => void>();
   effect(() => {
-    const wanted = wish.value;
-    const kept = uploaded.value;
-    if (!wanted || !kept) return undefined;
-    const leaving = new AbortController();
-    proposalProblem.value = null;
-    proposePoints({ image_id: kept.id, person: wanted.person, mask: true }, leaving.signal).then(
-      // Nobody sees that the wish is gone before its answer is there.
-      (found) =>
-        batch(() => {
-          wish.value = null;
-          take(found, wanted);
-        }),
-      (error) => {
-        const problem = problemFrom(error);
-        if (!problem) return;
-        batch(() => {
-          wish.value = null;
-          if (problem.code === NOT_INSTALLED) canPropose.value = false;
-          else proposalProblem.value = problem;
-        });
-      },
-    );
-    return () => leaving.abort();
+    const now = views.value;
+    untracked(() => {
+      for (const [view, leave] of followed) {
+        if (now.includes(view)) continue;
+        leave();
+        followed.delete(view);
+      }
+      for (const view of now) if (!followed.has(view)) followed.set(view, follow(view));
+    });
   });
 }
 
-function take(found: PointsProposal, wanted: Wish): void {
-  proposal.value = found;
+function follow(view: DraftView): () => void {
+  const leaving = new AbortController();
+  void uploadUntilKept(view, leaving.signal);
+  const stop = effect(() => {
+    const wanted = view.wish.value;
+    const kept = view.uploaded.value;
+    if (!wanted || !kept || !canPropose.value) return undefined;
+    const asking = new AbortController();
+    view.proposalProblem.value = null;
+    void ask(view, kept.id, wanted, asking.signal);
+    return () => asking.abort();
+  });
+  return () => {
+    leaving.abort();
+    stop();
+    URL.revokeObjectURL(view.picture.url);
+  };
+}
+
+/** Tried until the service has it, or says that it does not take it. */
+async function uploadUntilKept({ picture, uploaded, problem }: DraftView, leaving: AbortSignal): Promise<void> {
+  for (let attempts = 0; uploaded.value === null && !leaving.aborted; attempts++) {
+    try {
+      const kept = await uploadImage(picture.file, leaving);
+      batch(() => {
+        uploaded.value = kept;
+        problem.value = null;
+      });
+    } catch (error) {
+      const found = problemFrom(error);
+      if (!found) return;
+      problem.value = found;
+      if (!isPassing(found)) return;
+      await pause(pauseMs(attempts), leaving);
+    }
+  }
+}
+
+/** Whether the next attempt may end otherwise. */
+function isPassing({ code, status }: Problem): boolean {
+  return code === UNREACHABLE || status === 503;
+}
+
+async function ask(view: DraftView, imageId: string, wanted: Wish, asking: AbortSignal): Promise<void> {
+  for (;;) {
+    try {
+      const found = await proposePoints({ image_id: imageId, person: wanted.person, mask: true }, asking);
+      // Nobody sees that the wish is gone before its answer is there.
+      return batch(() => {
+        view.wish.value = null;
+        take(view, found, wanted);
+      });
+    } catch (error) {
+      const problem = problemFrom(error);
+      if (!problem || asking.aborted) return;
+      // Those that look at pictures are few: it is asked again when the service says so.
+      if (error instanceof ProblemError && problem.status === 503 && error.retryAfterS !== null) {
+        await pause(1000 * error.retryAfterS, asking);
+        continue;
+      }
+      return batch(() => {
+        view.wish.value = null;
+        if (problem.code === NOT_INSTALLED) canPropose.value = false;
+        else view.proposalProblem.value = problem;
+      });
+    }
+  }
+}
+
+function take(view: DraftView, found: PointsProposal, wanted: Wish): void {
+  const { timeline, strokes } = view;
+  view.proposal.value = found;
+  if (wanted.replaces) strokes.value = begin([]);
   if (found.person === null) {
     announce(messages.stage.nobody);
     return;
   }
   // Who has begun to click goes on.
-  const hasBegun = timeline.value.past.length > 0 || Object.keys(points.value.placed).length > 0;
-  if (hasBegun && !wanted.replaces) return;
-  change(proposedPoints(found));
+  const { past, present } = timeline.value;
+  if ((past.length > 0 || Object.keys(present.placed).length > 0) && !wanted.replaces) return;
+  timeline.value = advance(timeline.value, proposedPoints(found));
+  if (view !== current.value) return;
   selected.value = null;
   announce(inWords(found));
 }

@@ -1,24 +1,23 @@
 // The draft as the API wants it, and back.
-import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
-import { namedPoints } from "../points/coco";
-import { NO_POINTS, skipRest } from "../points/placed";
+import { batch } from "@preact/signals";
+import type { FitRequest, Gender, InitialPoseRequest, ViewRequest } from "../api/types";
+import { namedPoints } from "../points/named";
+import { NO_POINTS, isEnough, skipRest } from "../points/placed";
 import type { Points } from "../points/placed";
-import { hasProposed } from "../points/proposed";
 import { begin } from "../points/timeline";
-import { clothing, cues, facing, focalLength, light, person, picture, points, selected, surroundings, timeline } from "./draft";
+import { cues, isAwaiting, person, views } from "./draft";
+import type { DraftView } from "./draft";
 import { NOBODY, heightM, heightTexts, tapeMeasurements, tapeTexts, weightKg, weightText } from "./person";
-import type { Person } from "./person";
-
-type Subject = Pick<
-  FitOptions,
-  "gender" | "height_m" | "weight_kg" | "measurements" | "points" | "focal_length_35mm" | "limb_facing"
->;
+import type { Picture } from "./picture";
 
 /** The diagonal of 35 mm film, to which equivalent focal lengths refer. */
 const FILM_DIAGONAL_MM = 43.27;
 
-/** Who is in the picture, as far as it is known. */
-export function describedPerson(gender: Gender, known: Person): Pick<Subject, "gender" | "height_m" | "weight_kg" | "measurements"> {
+type PersonRequest = Pick<FitRequest, "gender" | "height_m" | "weight_kg" | "measurements">;
+
+/** Who is in the pictures, as far as it is known. */
+export function personRequest(gender: Gender): PersonRequest {
+  const known = person.value;
   const height = heightM(known);
   const weight = weightKg(known);
   return {
@@ -29,53 +28,44 @@ export function describedPerson(gender: Gender, known: Person): Pick<Subject, "g
   };
 }
 
-export function subjectOf(
-  gender: Gender,
-  known: Person,
-  clicked: Points,
-  lens: number | null,
-  facings: FitOptions["limb_facing"],
-): Subject {
-  return {
-    ...describedPerson(gender, known),
-    ...(lens === null ? {} : { focal_length_35mm: lens }),
-    points: Object.fromEntries(
-      Object.entries(clicked.placed).map(([name, { x, y, hidden, proposed }]) => [
-        name,
-        { x, y, visibility: hidden ? 1 : 2, ...(proposed ? { source: "proposal" } : {}) },
-      ]),
-    ) as FitOptions["points"],
-    limb_facing: facings,
-  };
+/** What is asked of the person, whatever the pictures. */
+export function wholeRequest(gender: Gender): Omit<FitRequest, "views"> {
+  return { ...personRequest(gender), cues: cues.value };
 }
 
-export function draftedSubject(): Subject | null {
-  const { gender } = person.value;
-  if (gender === null) return null;
-  return subjectOf(gender, person.value, points.value, focalLength.value, facing.value);
-}
-
-/** How the light and the outline are to be taken, and by what the body is found. */
-export function draftedChoices(): Pick<FitOptions, "cues" | "clothing" | "light"> {
-  const known = light.value !== null || surroundings.value !== "uniform";
+/** Points that are still awaited are left to the service. */
+export function viewRequest(view: DraftView): ViewRequest {
+  const { view: kind, clothing } = view;
   return {
-    cues: cues.value,
+    ...(views.value.length > 1 ? { view: kind.value } : {}),
+    ...(isAwaiting(view) ? { points: "auto" } : { points: pointsRequest(view), limb_facing: view.facing.value }),
+    ...lensRequest(view),
     ...(clothing.value === "auto" ? {} : { clothing: clothing.value }),
-    ...(known ? { light: { ...light.value, surroundings: surroundings.value } } : {}),
   };
 }
 
-export function draftedInitialPose(subject: Subject, width: number, height: number, imageId: string | null): InitialPoseRequest {
-  const where = imageId === null ? { image_size: { width, height } } : { image_id: imageId };
-  return { ...subject, ...where };
+export function initialPoseRequest(view: DraftView, gender: Gender): InitialPoseRequest {
+  const { picture, uploaded, facing } = view;
+  const where = uploaded.value ? { image_id: uploaded.value.id } : { image_size: { width: picture.width, height: picture.height } };
+  return { ...personRequest(gender), points: pointsRequest(view), limb_facing: facing.value, ...lensRequest(view), ...where };
 }
 
-/** Take up a person, as of an earlier request; what is left out is unknown. */
-export function loadPerson(asked: Partial<Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "measurements">>): void {
+function lensRequest({ focalLength }: DraftView): { focal_length_35mm?: number } {
+  return focalLength.value === null ? {} : { focal_length_35mm: focalLength.value };
+}
+
+function pointsRequest({ timeline }: DraftView): InitialPoseRequest["points"] {
+  const { placed } = timeline.value.present;
+  return Object.fromEntries(
+    Object.entries(placed).map(([name, { x, y, hidden, proposed }]) => [name, { x, y, visibility: hidden ? 1 : 2, ...(proposed ? { source: "proposal" } : {}) }]),
+  ) as InitialPoseRequest["points"];
+}
+
+/** Take up what was asked of a person; what is left out is unknown. */
+export function loadPerson(asked: Partial<PersonRequest>): void {
   const { units } = person.value;
   person.value = {
-    ...NOBODY,
-    gender: asked.gender ?? null,
+    gender: asked.gender ?? NOBODY.gender,
     units,
     ...heightTexts(asked.height_m ?? null, units),
     weight: weightText(asked.weight_kg ?? null, units),
@@ -83,24 +73,22 @@ export function loadPerson(asked: Partial<Pick<FitOptions, "gender" | "height_m"
   };
 }
 
-/** Take up what an earlier fit was asked for. */
-export function loadDraft(asked: FitOptions): void {
-  loadPerson(asked);
-  const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
+/** Take up what was asked of a picture. */
+export function loadView(view: DraftView, asked: ViewRequest): void {
+  const { points } = asked;
+  const placed = typeof points === "object" && points !== null && !Array.isArray(points) ? namedPoints(points) : {};
   const loaded: Points = { ...NO_POINTS, placed };
-  timeline.value = begin(hasProposed(loaded) ? skipRest(loaded) : loaded);
-  selected.value = null;
-  focalLength.value = lensOf(asked);
-  facing.value = asked.limb_facing ?? {};
-  cues.value = asked.cues ?? "SES";
-  clothing.value = asked.clothing ?? "auto";
-  light.value = asked.light?.azimuth_deg != null ? asked.light : null;
-  surroundings.value = asked.light?.surroundings ?? "uniform";
+  batch(() => {
+    view.timeline.value = begin(isEnough(loaded) ? skipRest(loaded) : loaded);
+    if (asked.view) view.view.value = asked.view;
+    view.focalLength.value = lensOf(asked, view.picture);
+    view.facing.value = asked.limb_facing ?? {};
+    if (asked.clothing === "tight" || asked.clothing === "loose") view.clothing.value = asked.clothing;
+  });
 }
 
 /** As on 35 mm film, whichever way it was said; null if it was not. */
-function lensOf(asked: FitOptions): number | null {
-  const shown = picture.value;
-  if (asked.focal_length_px == null || !shown) return asked.focal_length_35mm ?? null;
-  return (asked.focal_length_px * FILM_DIAGONAL_MM) / Math.hypot(shown.width, shown.height);
+function lensOf({ focal_length_px, focal_length_35mm }: ViewRequest, { width, height }: Picture): number | null {
+  if (focal_length_px == null) return focal_length_35mm ?? null;
+  return (focal_length_px * FILM_DIAGONAL_MM) / Math.hypot(width, height);
 }

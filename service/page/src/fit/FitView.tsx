@@ -3,34 +3,30 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { cancelFit, getAsked, getPicture } from "../api/calls";
 import { isUnreachable, problemFrom, untilReached } from "../api/client";
-import type { Fit, FitRef } from "../api/fits";
-import type { Problem } from "../api/types";
+import type { Fit, Problem } from "../api/types";
 import { person } from "../draft/draft";
+import { openAgain } from "../draft/open";
 import { personInWords } from "../draft/person";
 import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { entries, fits, forget, remember, seen, thumbnailOf } from "../history/store";
-import { faultsOf } from "../measure/faults";
-import { PictureProblem } from "../measure/PictureProblem";
 import { wordFor } from "../messages/words";
 import { messages } from "../messages";
-import { changeAgain } from "../result/again";
 import { ResultView } from "../result/ResultView";
-import { beginning, go } from "../route";
+import { START_ADDRESS, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Progress } from "./Progress";
 import { isActive, trouble, watch } from "./watch";
 
-export function FitView({ which }: { which: FitRef }) {
+export function FitView({ id }: { id: string }) {
   const pictures = useSignal<readonly Picture[]>([]);
-  const { id } = which;
   const fit = fits.value[id];
   const fail = (error: unknown) => (trouble.value = problemFrom(error));
 
   useEffect(() => {
     trouble.value = null;
     const leaving = new AbortController();
-    watch(which, leaving.signal).catch(fail);
+    watch(id, leaving.signal).catch(fail);
     return () => {
       leaving.abort();
       trouble.value = null;
@@ -50,7 +46,7 @@ export function FitView({ which }: { which: FitRef }) {
         pictures.value = opened;
         const { name, element } = opened[0]!;
         // Opened by its link: from now on this browser knows it as well.
-        remember({ kind: fit.kind, id, name, startedAt: fit.created_at, thumbnail: thumbnailOf(element) });
+        remember({ id, name, startedAt: fit.created_at, thumbnail: thumbnailOf(element) });
       })
       .catch((error) => leaving.signal.aborted || fail(error));
     return () => {
@@ -59,13 +55,13 @@ export function FitView({ which }: { which: FitRef }) {
     };
   }, [id, isKnown]);
 
-  if (trouble.value) return <Trouble which={which} problem={trouble.value} />;
+  if (trouble.value) return <Trouble id={id} problem={trouble.value} />;
   if (!fit) return <main class="waiting" aria-busy="true" />;
   if (fit.state === "succeeded") return <ResultView fit={fit} pictures={pictures.value} />;
   if (isActive(fit)) {
     const cancel = async () => {
       try {
-        seen(await cancelFit(fit));
+        seen(await cancelFit(id));
         return true;
       } catch (error) {
         if (!isUnreachable(error)) fail(error);
@@ -78,27 +74,24 @@ export function FitView({ which }: { which: FitRef }) {
 }
 
 async function openedPictures(fit: Fit): Promise<readonly Picture[]> {
-  const [name, ...files] = await Promise.all([nameOf(fit), ...fit.pictures.map(({ image }) => getPicture(image))]);
-  return Promise.all(files.map((file) => shownPicture(file, name)));
+  const asked = await getAsked(fit.id);
+  // As this browser knows it; a fit opened by its link is named by whom it shows.
+  const name = entries.value.find(({ id }) => id === fit.id)?.name ?? personInWords(asked, person.value.units);
+  const count = asked.views?.length ?? 1;
+  const paths = Array.from({ length: count }, (_, number) => fit.links.files[`views/${number}/image`]!);
+  return Promise.all(paths.map(async (path) => shownPicture(await getPicture(path), name)));
 }
 
-/** As this browser knows it; a fit opened by its link is named by whom it shows. */
-async function nameOf(fit: Fit): Promise<string> {
-  const known = entries.value.find((entry) => entry.id === fit.id);
-  return known?.name ?? personInWords(await getAsked(fit), person.value.units);
-}
-
-function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
+function Trouble({ id, problem }: { id: string; problem: Problem }) {
   const { fit: words, frame } = messages;
-  const { kind, id } = which;
-  const gone = problem.status === 404 || problem.status === 410;
+  const gone = problem.status === 404;
   return (
     <main class="ended">
-      <h1>{gone ? words.of[kind].gone : words.of[kind].notShown}</h1>
+      <h1>{gone ? words.gone : words.notShown}</h1>
       <ProblemNote problem={problem} />
       <div class="row">
-        <button class="button is-primary" type="button" onClick={() => go(beginning(kind))}>
-          {words.of[kind].another}
+        <button class="button is-primary" type="button" onClick={() => go(START_ADDRESS)}>
+          {words.another}
         </button>
         {gone ? (
           <button
@@ -106,7 +99,7 @@ function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
             type="button"
             onClick={() => {
               forget(id);
-              go(beginning(kind));
+              go(START_ADDRESS);
             }}
           >
             {words.forget}
@@ -122,20 +115,17 @@ function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
 }
 
 function Ended({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
-  const { of, picture: pictureWords } = messages.fit;
-  const words = of[fit.kind];
+  const words = messages.fit;
   const fault = useSignal<Problem | null>(null);
-  const { views, rest } = fit.problem ? faultsOf(fit.problem) : { views: new Map<number, Problem>(), rest: null };
-  const change = () => changeAgain(fit, pictures).catch((error) => (fault.value = problemFrom(error)));
+  const change = () => openAgain(fit, 0, pictures).catch((error) => (fault.value = problemFrom(error)));
   return (
     <main class="ended">
       <h1>{wordFor(words.endings, fit.state)}</h1>
-      {rest && <ProblemNote problem={rest} />}
-      <ul class="ended-pictures">
+      {fit.problem && <ProblemNote problem={fit.problem} />}
+      <ul class="fit-pictures">
         {pictures.map(({ url }, number) => (
           <li key={url}>
-            <img class="ended-picture" src={url} alt={pictureWords(number + 1)} />
-            {views.has(number) && <PictureProblem problem={views.get(number)!} />}
+            <img src={url} alt={words.picture(number + 1)} />
           </li>
         ))}
       </ul>
@@ -146,7 +136,7 @@ function Ended({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
             {words.change}
           </button>
         )}
-        <button class="button" type="button" onClick={() => go(beginning(fit.kind))}>
+        <button class="button" type="button" onClick={() => go(START_ADDRESS)}>
           {words.another}
         </button>
       </div>

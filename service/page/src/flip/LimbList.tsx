@@ -1,16 +1,14 @@
 // All limbs that can be turned, for whoever clicks none on the body.
-import type { FittedView } from "../api/fits";
-import type { Facing } from "../api/types";
-import { pictureOf } from "../measure/views";
+import type { Facing, ViewResult } from "../api/types";
 import { capitalised } from "../messages/figures";
 import { messages } from "../messages";
 import { TURNED_LIMBS, facingsOf } from "./flips";
 import type { Flips, TurnedLimb } from "./flips";
 
 interface Props {
-  readonly view: FittedView;
-  /** Whether the picture is one of several, and is to be named. */
-  readonly isOfSeveral: boolean;
+  readonly view: ViewResult;
+  /** Of one of several pictures its name. */
+  readonly title: string | null;
   readonly flips: Flips;
   readonly pointedAt: TurnedLimb | null;
   readonly onPoint: (limb: TurnedLimb | null) => void;
@@ -19,7 +17,7 @@ interface Props {
 
 const LIST = "limbs";
 
-export function LimbList({ view, isOfSeveral, flips, pointedAt, onPoint, onFlip }: Props) {
+export function LimbList({ view, title, flips, pointedAt, onPoint, onFlip }: Props) {
   const { frame, limbs: words, points } = messages;
   const found = facingsOf(view);
   const open = new Set(view.limb_facing.filter(({ ambiguous }) => ambiguous).map(({ limb }) => limb));
@@ -31,7 +29,7 @@ export function LimbList({ view, isOfSeveral, flips, pointedAt, onPoint, onFlip 
   return (
     <details class="section fold-section" id={LIST}>
       <summary>
-        <h2>{isOfSeveral && view.view ? frame.ofField(words.title, pictureOf(view.view)) : words.title}</h2>
+        <h2>{title ? frame.ofField(title, words.title) : words.title}</h2>
       </summary>
       <p class="fine">{words.help}</p>
       <ul class="limb-list">

@@ -1,8 +1,7 @@
 // What is to become of limbs that were turned: a new fit, or nothing.
 import { useSignal } from "@preact/signals";
 import { problemFrom } from "../api/client";
-import type { Fit, FittedView } from "../api/fits";
-import type { Problem } from "../api/types";
+import type { Fit, Problem, ViewResult } from "../api/types";
 import { messages } from "../messages";
 import { fitWithFlips } from "../result/again";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -11,7 +10,7 @@ import { inWords } from "./words";
 
 interface Props {
   readonly fit: Fit;
-  readonly views: readonly FittedView[];
+  readonly views: readonly ViewResult[];
   readonly flips: FlipsOfViews;
   readonly onTakeBack: () => void;
 }

@@ -1,6 +1,5 @@
 // Which limbs are turned the other way, as it is seen before it is fitted.
-import type { FittedView } from "../api/fits";
-import type { Facing, Limb } from "../api/types";
+import type { Facing, Limb, ViewResult } from "../api/types";
 
 /** Upper before lower, as they hang together. */
 export const CHAINS = [
@@ -36,7 +35,7 @@ export function areAllEmpty(flips: FlipsOfViews): boolean {
 }
 
 /** Which way each limb points in a picture, by the fit. */
-export function facingsOf({ limb_facing }: Pick<FittedView, "limb_facing">): Readonly<Partial<Record<Limb, Facing>>> {
+export function facingsOf({ limb_facing }: Pick<ViewResult, "limb_facing">): Readonly<Partial<Record<Limb, Facing>>> {
   return Object.fromEntries(limb_facing.map(({ limb, facing }) => [limb, facing]));
 }
 

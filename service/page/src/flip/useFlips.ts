@@ -1,6 +1,6 @@
 // The limbs that are seen turned the other way, in each picture of a fit, and the one pointed at.
 import { useState } from "preact/hooks";
-import type { FittedView } from "../api/fits";
+import type { ViewResult } from "../api/types";
 import { messages } from "../messages";
 import { announce } from "../ui/announce";
 import { NO_FLIPS, areAllEmpty, facingsOf, flipped } from "./flips";
@@ -18,7 +18,7 @@ export interface Turning {
 }
 
 /** `number` is that of the picture that is shown. */
-export function useFlips(views: readonly FittedView[], number: number): Turning {
+export function useFlips(views: readonly ViewResult[], number: number): Turning {
   const [all, setAll] = useState<FlipsOfViews>({});
   const [pointedAt, point] = useState<TurnedLimb | null>(null);
   const change = (next: FlipsOfViews) => {

@@ -1,19 +1,18 @@
 // Limbs that were turned, as they are told.
-import type { FittedView } from "../api/fits";
-import type { Facing } from "../api/types";
-import { pictureTitle } from "../measure/views";
+import type { Facing, ViewResult } from "../api/types";
 import { capitalised, listed } from "../messages/figures";
 import { messages } from "../messages";
+import { viewTitles } from "../messages/viewNames";
 import { isEmpty } from "./flips";
 import type { Flips, FlipsOfViews, TurnedLimb } from "./flips";
 
 /** Within a sentence; of several pictures each with its name. */
-export function inWords(flips: FlipsOfViews, views: readonly Pick<FittedView, "view">[]): string {
-  const { ofField } = messages.frame;
-  const told = views.flatMap(({ view }, number) => {
+export function inWords(flips: FlipsOfViews, views: readonly Pick<ViewResult, "view">[]): string {
+  const titles = viewTitles(views);
+  const told = views.flatMap((_, number) => {
     const own = flips[number];
     if (!own || isEmpty(own)) return [];
-    return [view && views.length > 1 ? ofField(pictureTitle(view), inWordsOfOne(own)) : inWordsOfOne(own)];
+    return [views.length > 1 ? messages.frame.ofField(titles[number]!, inWordsOfOne(own)) : inWordsOfOne(own)];
   });
   return told.join("; ");
 }

@@ -2,7 +2,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import { getFit } from "../api/calls";
 import { ProblemError } from "../api/client";
-import { stageLabel } from "../fit/stages";
 import { isActive } from "../fit/watch";
 import { moment, percent } from "../messages/figures";
 import { messages } from "../messages";
@@ -24,9 +23,9 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
         const known = fits.value[entry.id];
         if (gone || (known && !isActive(known))) continue;
         try {
-          seen(await getFit(entry));
+          seen(await getFit(entry.id));
         } catch (error) {
-          if (error instanceof ProblemError && [404, 410].includes(error.problem.status)) forget(entry.id);
+          if (error instanceof ProblemError && error.problem.status === 404) forget(entry.id);
         }
       }
     };
@@ -53,12 +52,12 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
         {entries.value.length === 0 && <p class="fine">{frame.list.none}</p>}
         <ul class="history">
           {entries.value.map((entry) => (
-            <li key={entry.id} class={openFit.value?.id === entry.id ? "is-open" : ""}>
+            <li key={entry.id} class={openFit.value === entry.id ? "is-open" : ""}>
               <a
-                href={fitAddress(entry)}
+                href={fitAddress(entry.id)}
                 onClick={(event) => {
                   event.preventDefault();
-                  go(fitAddress(entry));
+                  go(fitAddress(entry.id));
                   dialog.current!.close();
                 }}
               >
@@ -83,6 +82,6 @@ function standing({ id }: Entry): string {
   const fit = fits.value[id];
   if (!fit) return "…";
   const { list } = messages.frame;
-  if (fit.state === "running") return list.running(stageLabel(fit.stage ?? "observation"), percent(fit.progress));
+  if (fit.state === "running") return `${list.states.running} ${percent(fit.progress)}`;
   return list.states[fit.state];
 }

@@ -1,10 +1,10 @@
 // The fits this browser has started or opened: ids and a thumbnail, nothing else.
 import { signal } from "@preact/signals";
-import type { Fit, FitRef } from "../api/fits";
+import type { Fit } from "../api/types";
 import { keep as keepText, kept } from "../kept";
-import type { Assumptions } from "../ui/AssumptionNotes";
 
-export interface Entry extends FitRef {
+export interface Entry {
+  readonly id: string;
   readonly name: string;
   readonly startedAt: string;
   /** A small JPEG as a data address. */
@@ -19,9 +19,6 @@ export const entries = signal<readonly Entry[]>(load());
 
 /** Fits as last seen, by id. */
 export const fits = signal<Readonly<Record<string, Fit>>>({});
-
-/** What was assumed of fits begun on this page, by id, as the initial body already told. */
-export const assumed = signal<Readonly<Record<string, Assumptions>>>({});
 
 export function remember(entry: Entry): void {
   if (entries.value.some((each) => each.id === entry.id)) return;
@@ -53,15 +50,8 @@ function keep(list: readonly Entry[]): void {
 function load(): readonly Entry[] {
   try {
     const list: unknown = JSON.parse(kept(PLACE) ?? "[]");
-    return Array.isArray(list) ? (list as Kept[]).filter((each) => typeof each?.id === "string").map(entryOf) : [];
+    return Array.isArray(list) ? (list as Entry[]).filter((each) => typeof each?.id === "string") : [];
   } catch {
     return [];
   }
-}
-
-/** Earlier versions of this page wrote no kind. */
-type Kept = Omit<Entry, "kind"> & { readonly kind?: Entry["kind"]; readonly scan?: true };
-
-function entryOf({ scan, ...entry }: Kept): Entry {
-  return { kind: scan ? "scan" : "fit", ...entry };
 }

@@ -1,10 +1,9 @@
 // The mask before the fit, small beside the picture, and the way to its brushes.
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
-import { mask, picture } from "../draft/draft";
+import { current, mask } from "../draft/draft";
 import { messages } from "../messages";
 import type { Size, View } from "../stage/view";
 import { isEdited, isEditing, resetMask, shownMask } from "./edits";
-import { LooseClothesNote } from "./LooseClothesNote";
 import { MaskLayer } from "./MaskLayer";
 
 const PREVIEW: Size = { width: 96, height: 128 };
@@ -36,13 +35,12 @@ export function MaskSection() {
           </div>
         </div>
       </div>
-      <LooseClothesNote />
     </section>
   );
 }
 
 function Preview() {
-  const shown = picture.value!;
+  const shown = current.value!.picture;
   const canvas = useRef<HTMLCanvasElement>(null);
   const view = useMemo(() => filled(shown), [shown]);
   useLayoutEffect(() => {

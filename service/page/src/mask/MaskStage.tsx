@@ -1,7 +1,7 @@
 // The picture with its mask, under brushes.
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { picture } from "../draft/draft";
+import { current, strokes } from "../draft/draft";
 import { messages } from "../messages";
 import { redo, undo } from "../points/timeline";
 import { listen } from "../stage/gestures";
@@ -9,7 +9,7 @@ import { usePictureView } from "../stage/pictureView";
 import { StagePicture } from "../stage/StagePicture";
 import { toPicture } from "../stage/view";
 import type { Spot } from "../stage/view";
-import { addStroke, isEditing, redrawMask, shownMask, strokes } from "./edits";
+import { addStroke, isEditing, redrawMask, shownMask } from "./edits";
 import { maskKeys } from "./keys";
 import { MaskLayer } from "./MaskLayer";
 import { MaskTools } from "./MaskTools";
@@ -18,7 +18,7 @@ import type { Brush, Stroke } from "./strokes";
 
 export function MaskStage() {
   const { mask: words } = messages;
-  const shown = picture.value!;
+  const shown = current.value!.picture;
   const mask = shownMask.value;
   const lies = usePictureView(shown);
   const { box, size, view, pan, pinch } = lies;

@@ -1,5 +1,6 @@
 // What a mask is edited with, beside the picture.
 import type { Signal } from "@preact/signals";
+import { strokes } from "../draft/draft";
 import { decimal } from "../messages/figures";
 import { messages } from "../messages";
 import { redo, undo } from "../points/timeline";
@@ -7,7 +8,7 @@ import type { PictureView } from "../stage/pictureView";
 import { ViewButtons } from "../stage/ViewButtons";
 import { Choice } from "../ui/Choice";
 import { IconButton } from "../ui/IconButton";
-import { isEdited, resetMask, strokes } from "./edits";
+import { isEdited, resetMask } from "./edits";
 import { shareOf, sliderOf } from "./strokes";
 import type { Brush } from "./strokes";
 

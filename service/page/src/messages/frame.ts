@@ -5,7 +5,6 @@ export const frame = {
   description: "A body, posed and measured, from one picture and a few clicks.",
   start: "Maquette: start",
   fresh: "New",
-  measure: "Measure",
   history: "Fits",
   documentation: "Documentation",
   lightPage: "Light page",
@@ -23,11 +22,10 @@ export const frame = {
     use: "Use this key",
   },
   list: {
-    title: "Fits and scans of this browser",
+    title: "Fits of this browser",
     none: "None yet.",
     takeOff: (name: string) => `Take ${name} off this list`,
     note: "Only this browser knows this list. The service erases results after a while; if you delete one, at once.",
-    running: (stage: string, percent: string) => `${stage}, ${percent}`,
     states: {
       queued: "Waiting",
       running: "Running",
@@ -40,14 +38,11 @@ export const frame = {
   assumed: {
     lens: (length: string) => `A lens of ${length} (as on 35 mm film) is assumed, since the picture does not name it.`,
     height: (height: string) => `A height of ${height} is assumed. Give the real one: all else follows it.`,
-    allPoints: "All points were found automatically. Check them if something looks wrong.",
     points: (count: number) =>
       plural(count, {
         one: "One point was found automatically. Check it if something looks wrong.",
         other: `${count} points were found automatically. Check them if something looks wrong.`,
       }),
-    /** By picture, of each how many. */
-    pointsOf: (pictures: readonly string[]) => `Points were found automatically: ${pictures.join(", ")}.`,
     other: (quantity: string, value: string) => `${quantity} ${value} is assumed.`,
   },
   fields: {

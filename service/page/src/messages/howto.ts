@@ -1,6 +1,14 @@
-// Good pictures and bad ones, side by side: captions, within a sentence.
+// How to take good pictures: rules, and captions of good ones and bad ones, within a sentence.
 export const howto = {
-  title: "Good and bad pictures",
+  title: "For good measurements",
+  rules: [
+    "Tight clothes or underwear, hair tied up, no shoes.",
+    "Phone upright and level, at belly height, two to three metres away; stood on something or held by somebody.",
+    "Head to feet in the picture, with some room around.",
+    "Light from the camera’s side, in front of a wall of another colour than skin and clothes.",
+    "Breathe out, stand relaxed, do not draw in the belly. Both pictures from the same place: turn yourself, not the camera.",
+    "Pictures from the phone’s own camera app, chosen as files, are best: they say which lens took them.",
+  ],
   good: (what: string) => `Good: ${what}`,
   bad: (what: string) => `Bad: ${what}`,
   tiles: {

@@ -1,7 +1,7 @@
 // All that the page says, in English: one file per area.
 import { accuracy } from "./accuracy";
 import { answers } from "./answers";
-import { derived } from "./derived";
+import { products } from "./products";
 import { files } from "./files";
 import { fit } from "./fit";
 import { frame } from "./frame";
@@ -18,4 +18,4 @@ import { result } from "./result";
 import { stage } from "./stage";
 import { start } from "./start";
 
-export const messages = { accuracy, answers, derived, files, fit, frame, howto, limbs, look, mask, measure, measures, panel, person, points, result, stage, start } as const;
+export const messages = { accuracy, answers, files, fit, frame, howto, limbs, look, mask, measure, measures, panel, person, points, products, result, stage, start } as const;

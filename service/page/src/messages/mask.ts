@@ -21,9 +21,4 @@ export const mask = {
   keys:
     "Drag to paint, with Shift to move the picture. Arrow keys move the brush, Shift moves ten pixels, Enter dabs, X changes the brush, square brackets its size, plus and minus zoom, 0 shows the whole picture, Control Z undoes.",
   tooLarge: "This browser cannot draw a mask as large as the picture. Use a smaller picture, or discard the edits.",
-  loose: {
-    question: "The clothes look loose. Are they?",
-    yes: "Yes, loose clothes",
-    said: "Clothes are taken as loose.",
-  },
 } as const;

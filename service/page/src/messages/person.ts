@@ -35,5 +35,6 @@ export const person = {
     weight: "Correct the weight",
     tape: "Correct a measurement",
     points: "Click more points",
+    pointsOf: (picture: string) => `Click more points: ${picture}`,
   },
 } as const;

@@ -117,8 +117,4 @@ export const points = {
     right_thigh: "right thigh",
     right_shin: "right lower leg",
   },
-  files: {
-    notJson: "The file is not JSON.",
-    expected: "It has neither COCO annotations with keypoints, nor a list of 17 keypoints, nor points by name.",
-  },
 } as const;

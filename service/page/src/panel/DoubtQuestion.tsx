@@ -1,6 +1,6 @@
 // Asks about proposed points one by one; nothing waits for the answers.
 import { useEffect, useRef } from "preact/hooks";
-import { change, picture, points, selected } from "../draft/draft";
+import { change, current, points, selected } from "../draft/draft";
 import { messages } from "../messages";
 import { sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
@@ -54,7 +54,7 @@ export function DoubtAnswers({ name }: { name: PointName }) {
 export function DoubtCloseUp({ name }: { name: PointName }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const where = points.value.placed[name];
-  const shown = picture.value;
+  const shown = current.value?.picture;
   useEffect(() => {
     if (!where || !shown) return;
     const scale = CLOSE_UP_PX / (SHOWN_SHARE * Math.max(shown.width, shown.height));

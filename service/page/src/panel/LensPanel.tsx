@@ -1,5 +1,5 @@
 // Through which lens: from the picture's own data, chosen by eye, or assumed.
-import { focalLength, uploaded } from "../draft/draft";
+import { current, focalLength } from "../draft/draft";
 import { measured } from "../messages/figures";
 import { messages } from "../messages";
 
@@ -17,7 +17,8 @@ const LENSES: readonly (readonly [number, keyof typeof messages.panel.lens.kinds
 
 export function LensPanel() {
   const { lens } = messages.panel;
-  const exif = uploaded.value?.focal_length_35mm ?? null;
+  const uploaded = current.value!.uploaded.value;
+  const exif = uploaded?.focal_length_35mm ?? null;
   const chosen = focalLength.value;
   const shown = chosen ?? exif ?? ASSUMED_MM;
   return (
@@ -28,7 +29,7 @@ export function LensPanel() {
           ? lens.chosen
           : exif !== null
             ? lens.fromPicture
-            : uploaded.value
+            : uploaded
               ? lens.none(measured(ASSUMED_MM, "millimeter"))
               : lens.reading}
       </p>

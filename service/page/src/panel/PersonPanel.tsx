@@ -7,14 +7,7 @@ import { messages } from "../messages";
 import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 
-interface Words {
-  /** What follows where no height is given. */
-  readonly noHeight: string;
-  readonly weight: string;
-}
-
-/** Without other `words`, those for one picture. */
-export function PersonPanel({ words }: { words?: Words }) {
+export function PersonPanel() {
   const { frame, person: said } = messages;
   const known = person.value;
   const metric = known.units === "metric";
@@ -95,10 +88,10 @@ export function PersonPanel({ words }: { words?: Words }) {
         </div>
       </div>
       <p id="height-note" class={`fine ${faults.height ? "is-fault" : ""}`}>
-        {faults.height ?? (heightM(known) === null ? (words?.noHeight ?? assumedHeight()) : said.heightHeld)}
+        {faults.height ?? (heightM(known) === null ? assumedHeight() : said.heightHeld)}
       </p>
       <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
-        {faults.weight ?? words?.weight ?? said.weightHelps}
+        {faults.weight ?? said.weightHelps}
       </p>
       <Tape />
     </section>

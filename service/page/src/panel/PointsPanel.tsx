@@ -1,5 +1,5 @@
 // Which point comes next, what it means, and what can be done with those there are.
-import { change, doubted, person, picture, points, seenFromBehind, selected, timeline, todo, upcoming } from "../draft/draft";
+import { change, current, doubted, person, points, selected, timeline, todo, upcoming } from "../draft/draft";
 import { liveBody, liveProblem } from "../draft/live";
 import { listed } from "../messages/figures";
 import { messages } from "../messages";
@@ -7,16 +7,13 @@ import { POINT_NAMES, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { ask, leave, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
 import type { Place, Points } from "../points/placed";
-import { countProposed, hasProposed, isAllProposed } from "../points/proposed";
+import { countProposed, hasProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
 import { answered } from "../ui/answered";
-import { BodyLink } from "./BodyLink";
 import { DoubtAnswers, DoubtCloseUp, DoubtQuestion, questionOf } from "./DoubtQuestion";
 import { Guide } from "./Guide";
-import { PointFiles } from "./PointFiles";
 import { ClickAll, ProposalNote, ProposalWarnings } from "./ProposalNote";
-import { SideNote } from "./SideNote";
 import { Ways } from "./Ways";
 
 const FAR_OFF_SHARE = 0.03;
@@ -25,8 +22,6 @@ export function PointsPanel() {
   const { points: words } = messages.panel;
   const next = upcoming.value;
   const doubt = doubted.value;
-  // What is wrong with all of them comes before the questions about each.
-  const isProposed = isAllProposed(points.value);
   const count = Object.keys(points.value.placed).length;
   return (
     <section class="section" aria-labelledby="points-title">
@@ -38,7 +33,6 @@ export function PointsPanel() {
         <IconButton icon="swap" label={words.swap} disabled={count === 0} onClick={() => change(swapSides(points.value))} />
       </header>
       <ProposalNote />
-      {isProposed && <SideNote />}
       <div class="next">
         {doubt ? <DoubtCloseUp name={doubt} /> : <Guide next={next} points={points.value} />}
         <div class="next-text">
@@ -46,10 +40,8 @@ export function PointsPanel() {
         </div>
       </div>
       <ProposalWarnings />
-      {!isProposed && <SideNote />}
       <Doubts />
       <PointList />
-      <PointFiles />
       <Ways />
     </section>
   );
@@ -74,9 +66,7 @@ function Next({ name }: { name: PointName }) {
       <p class="next-kicker">{isMoved ? words.clickWhere : words.next}</p>
       <p class={`next-name is-${side}`}>{named.labels[name]}</p>
       <p class="next-help">{named.helps[name]}</p>
-      {side !== "middle" && (
-        <p class="fine">{whichSide(side)}</p>
-      )}
+      {side !== "middle" && <p class="fine">{words.own[side]}</p>}
       {!isMoved && <p class="fine">{needed(limbs, trunk)}</p>}
       <div class="row">
         <button class="button is-small" type="button" onClick={() => change(skip(points.value, name))}>
@@ -97,11 +87,6 @@ function Next({ name }: { name: PointName }) {
   );
 }
 
-function whichSide(side: "left" | "right"): string {
-  const { points: words } = messages.panel;
-  return (seenFromBehind.value ? words.ownBehind : words.ownFacing)[side];
-}
-
 /** The next point in a few lines above the picture, where the panel is out of sight: on phones. */
 export function NextLine() {
   if (doubted.value) return <DoubtLine name={doubted.value} />;
@@ -117,7 +102,7 @@ export function NextLine() {
         <b>{named.labels[name]}</b>
         {points.value.placed[name] && `${panel.points.tapWhere} `}
         {named.helps[name]}
-        {side !== "middle" && <span>{whichSide(side)}</span>}
+        {side !== "middle" && <span>{panel.points.own[side]}</span>}
       </p>
     </div>
   );
@@ -126,8 +111,7 @@ export function NextLine() {
 function DoneLine() {
   return (
     <div class="next-line">
-      <b>{messages.panel.points.allDone}</b>
-      {person.value.gender === null && <BodyLink />}
+      <b>{messages.panel.points.allDone}</b> {person.value.gender === null && messages.panel.points.outlineNeedsBody}
     </div>
   );
 }
@@ -149,7 +133,7 @@ function ProposedLine() {
     <div class="next-line">
       <ClickAll kind="link" />
       <b>{words.pointsProposed}</b>
-      <span>{person.value.gender === null ? <BodyLink /> : words.dragThenFit}</span>
+      <span>{person.value.gender === null ? words.outlineNeedsBody : words.dragThenFit}</span>
     </div>
   );
 }
@@ -169,11 +153,7 @@ function Complete() {
       <p class="next-kicker">{words.title}</p>
       <p class="next-name">{proposed ? words.doneProposed : words.done}</p>
       {(proposed || isDrawn) && <p class="next-help">{proposed ? words.lookProposed : words.lookDone}</p>}
-      {!isDrawn && (
-        <p class="next-help">
-          <BodyLink />
-        </p>
-      )}
+      {!isDrawn && <p class="next-help">{words.outlineNeedsBody}</p>}
     </>
   );
 }
@@ -182,7 +162,7 @@ function Complete() {
 function Doubts() {
   const { panel, points: named } = messages;
   const body = liveBody.value;
-  const shown = picture.value;
+  const shown = current.value?.picture;
   if (!body && todo.value === null && !liveProblem.value) return <p class="fine">{panel.points.bodyFollows}</p>;
   if (!body || !shown) return null;
   const limit = FAR_OFF_SHARE * Math.hypot(shown.width, shown.height);

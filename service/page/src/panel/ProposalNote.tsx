@@ -1,10 +1,9 @@
 // What the service says of the points it proposes, and the way from proposing to clicking and back.
 // What changes is announced by whoever changes it: these notes are no status of their own.
-import { points } from "../draft/draft";
-import { canPropose, clickAll, isProposing, others, proposal, proposalProblem, proposalWord, propose } from "../draft/proposing";
+import { canPropose, current, points } from "../draft/draft";
+import { clickAll, isProposing, others, proposal, proposalWord, propose } from "../draft/proposing";
 import { messages } from "../messages";
 import { hasProposed, isAllProposed } from "../points/proposed";
-import { sideDoubt } from "../points/sides";
 import { ProblemNote } from "../ui/ProblemNote";
 import { answered } from "../ui/answered";
 
@@ -14,10 +13,11 @@ const TOLD_OTHERWISE: readonly string[] = ["nobody-found", "several-people"];
 export function ProposalNote() {
   if (!canPropose.value) return null;
   const found = proposal.value;
+  const problem = current.value!.proposalProblem.value;
   return (
     <>
       {isProposing.value && <p class="fine">{proposalWord.value}</p>}
-      {proposalProblem.value && <ProblemNote problem={proposalProblem.value} />}
+      {problem && <ProblemNote problem={problem} />}
       {found?.person === null && proposalWord.value && <p class="note">{proposalWord.value}</p>}
       {others.value.length > 0 && <Persons count={others.value.length} chosen={points.value.person} />}
       <Ways />
@@ -29,7 +29,7 @@ export function ProposalNote() {
 export function ProposalWarnings() {
   const found = proposal.value;
   if (!found || !hasProposed(points.value)) return null;
-  const warnings = found.warnings.filter(({ code }) => !TOLD_OTHERWISE.includes(code) && !isAskedAbout(code));
+  const warnings = found.warnings.filter(({ code }) => !TOLD_OTHERWISE.includes(code));
   if (warnings.length === 0) return null;
   return (
     <div class="note">
@@ -77,8 +77,4 @@ function Ways() {
       )}
     </div>
   );
-}
-
-function isAskedAbout(code: string): boolean {
-  return code === "seen-from-behind" && sideDoubt(points.value) !== null;
 }

@@ -4,77 +4,51 @@ import { useEffect } from "preact/hooks";
 import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { UNREACHABLE, isCutOff } from "../api/connection";
-import type { Problem } from "../api/types";
-import { oneOf, picture, todo, uploaded } from "../draft/draft";
-import { liveBody } from "../draft/live";
-import { isProposing } from "../draft/proposing";
-import { draftedChoices, draftedSubject } from "../draft/request";
-import { uploadProblem } from "../draft/uploading";
-import { assumed, remember, seen, thumbnailOf } from "../history/store";
+import type { Problem, ViewRequest } from "../api/types";
+import { person, todo, views } from "../draft/draft";
+import type { DraftView } from "../draft/draft";
+import { discard } from "../draft/open";
+import { viewRequest, wholeRequest } from "../draft/request";
+import { remember, seen, thumbnailOf } from "../history/store";
 import { maskToSend } from "../mask/edits";
 import { messages } from "../messages";
-import { fitWithPicture } from "../result/again";
 import { fitAddress, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
-import { discard } from "./open";
 
 export function SubmitBar() {
-  const { frame, panel, person: { todo: missing } } = messages;
+  const { frame, panel } = messages;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
-  /** Somebody wants the fit as soon as the points are there. */
-  const isEager = useSignal(false);
-  const waits = todo.value === missing.points && isProposing.value;
   const send = async () => {
-    const subject = draftedSubject();
-    const shown = picture.value;
-    if (!subject || !shown || todo.value) return;
+    const { gender } = person.value;
+    const sent = views.value;
+    if (gender === null || todo.value !== null) return;
     sending.value = true;
     problem.value = null;
     try {
-      const upload = (file: Blob) => uploadImage(file, new AbortController().signal);
-      const kept = uploaded.value ?? (await upload(shown.file));
-      const cutOut = await maskToSend();
-      const cut = cutOut && (await upload(cutOut));
-      const asked = { ...subject, ...draftedChoices() };
-      if (oneOf.value) {
-        await fitWithPicture(oneOf.value, asked, cut?.id ?? null);
-      } else {
-        const fit = await submitFit({ ...asked, image_id: kept.id, ...(cut ? { mask_id: cut.id } : {}) });
-        seen(fit);
-        assumed.value = { ...assumed.value, [fit.id]: liveBody.value?.assumptions ?? [] };
-        remember({ kind: fit.kind, id: fit.id, name: shown.name, startedAt: fit.created_at, thumbnail: thumbnailOf(shown.element) });
-        go(fitAddress(fit));
-      }
+      const fit = await submitFit({ ...wholeRequest(gender), views: await Promise.all(sent.map(uploadedView)) });
+      const { name, element } = sent[0]!.picture;
+      seen(fit);
+      remember({ id: fit.id, name, startedAt: fit.created_at, thumbnail: thumbnailOf(element) });
+      go(fitAddress(fit.id));
       // From here on the service has it: the next fit is another person's.
-      if (picture.value === shown) discard();
+      if (views.value === sent) discard();
     } catch (error) {
       problem.value = problemFrom(error);
-      // The picture may have been erased meanwhile: the next attempt sends it anew.
-      if (problem.value?.code === "unknown-image") uploaded.value = null;
+      // A picture may have been erased meanwhile: the next attempt sends all anew.
+      if (problem.value && isErased(problem.value)) for (const { uploaded } of sent) uploaded.value = null;
     } finally {
       sending.value = false;
     }
   };
-  const begin = () => {
-    if (waits) isEager.value = true;
-    else void send();
-  };
-  useEffect(() => {
-    if (!isEager.value || waits) return;
-    isEager.value = false;
-    void send();
-  }, [isEager.value, waits]);
   // Enter in a field of the person is the button.
   useEffect(() => {
     const listen = ({ key, target }: KeyboardEvent) => {
-      if (key === "Enter" && target instanceof HTMLInputElement && target.inputMode === "decimal" && !sending.value) begin();
+      if (key === "Enter" && target instanceof HTMLInputElement && target.inputMode === "decimal" && !sending.value) void send();
     };
     addEventListener("keydown", listen);
     return () => removeEventListener("keydown", listen);
   });
-  // That nothing is reached is said for as long as it is so.
-  const fault = [problem.value, uploadProblem.value].find((each) => each && each.code !== UNREACHABLE);
   return (
     <div class="submit">
       {isCutOff.value && (
@@ -82,11 +56,23 @@ export function SubmitBar() {
           {panel.cutOff}
         </p>
       )}
-      {fault && <ProblemNote problem={fault} />}
-      {oneOf.value && <p class="fine">{panel.oneOfSeveral}</p>}
-      <button class="button is-primary is-wide" type="button" disabled={(todo.value !== null && !waits) || sending.value || isEager.value} onClick={begin}>
-        {sending.value ? frame.sending : isEager.value ? panel.finding : waits ? panel.submit : (todo.value ?? panel.submit)}
+      {/* That nothing is reached is said for as long as it is so. */}
+      {problem.value && problem.value.code !== UNREACHABLE && <ProblemNote problem={problem.value} />}
+      <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={() => void send()}>
+        {sending.value ? frame.sending : (todo.value ?? panel.submit)}
       </button>
     </div>
   );
+}
+
+/** A picture as it is asked for, with the ids of its files. */
+async function uploadedView(view: DraftView): Promise<ViewRequest> {
+  const { picture, uploaded } = view;
+  uploaded.value ??= await uploadImage(picture.file);
+  const mask = await maskToSend(view);
+  return { ...viewRequest(view), image_id: uploaded.value.id, ...(mask ? { mask_id: (await uploadImage(mask)).id } : {}) };
+}
+
+function isErased({ code, errors }: Problem): boolean {
+  return [code, ...(errors ?? []).map((error) => error.code)].includes("unknown-image");
 }

@@ -1,21 +1,22 @@
-// Where a fit is prepared: the picture, who is in it, one button; all else is behind "Correct something".
+// Where a fit is prepared: the pictures, who is in them, one button; all else is behind "Correct something".
 import { useEffect } from "preact/hooks";
-import { isAsleep, isCorrecting, picture, points, upcoming } from "../draft/draft";
-import { isRestoring } from "../draft/lasting";
+import { current, isCorrecting, points, upcoming } from "../draft/draft";
 import { liveProblem } from "../draft/live";
-import { isProposing } from "../draft/proposing";
+import { openFiles, openProblem } from "../draft/open";
+import { isProposing, proposal } from "../draft/proposing";
 import { isEditing } from "../mask/edits";
 import { messages } from "../messages";
 import { isEnough } from "../points/placed";
 import { hasProposed } from "../points/proposed";
 import { isFull } from "../stage/full";
 import { Stage } from "../stage/Stage";
+import { Start } from "../start/Start";
+import { Findings } from "../ui/Findings";
 import { ProblemNote } from "../ui/ProblemNote";
 import { later } from "../ui/later";
 import { isNarrow } from "../ui/narrow";
-import { openFile, openProblem } from "./open";
 import { PersonPanel } from "./PersonPanel";
-import { Start } from "./Start";
+import { Pictures } from "./Pictures";
 import { SubmitBar } from "./SubmitBar";
 
 const Corrections = later(() => import("./Corrections").then((loaded) => loaded.Corrections), null);
@@ -24,27 +25,25 @@ const MaskStage = later(() => import("../mask/MaskStage").then((loaded) => loade
 
 export function Workbench() {
   const { panel } = messages;
-  const shown = picture.value;
+  const view = current.value;
   // Nobody proposes them: they are clicked.
-  const hasToClick = shown !== null && !isProposing.value && !isEnough(points.value);
-  useEffect(() => {
-    if (shown) isAsleep.value = false;
-  }, [shown]);
+  const hasToClick = view !== null && !isProposing.value && !isEnough(points.value);
   useEffect(() => {
     if (hasToClick) isCorrecting.value = true;
   }, [hasToClick]);
   useEffect(() => () => void (isFull.value = false), []);
-  if (!shown) return isRestoring.value ? <main class="waiting" aria-busy="true" /> : <Start />;
+  if (!view) return <Start />;
   const corrects = isCorrecting.value;
   const look = ["bench-stage", upcoming.value ? "" : "is-settled", hasProposed(points.value) ? "is-proposed" : "", isFull.value ? "is-full" : "", corrects ? "" : "is-plain"];
+  const problem = view.problem.value ?? liveProblem.value;
   return (
     <main
       class="bench"
       onDragOver={(event) => event.preventDefault()}
       onDrop={(event) => {
         event.preventDefault();
-        const file = event.dataTransfer?.files[0];
-        if (file) void openFile(file);
+        const files = [...(event.dataTransfer?.files ?? [])];
+        if (files.length > 0) void openFiles(files);
       }}
     >
       <h1 class="unseen">{panel.title}</h1>
@@ -54,12 +53,13 @@ export function Workbench() {
         </div>
       )}
       <div class={look.join(" ")}>
+        <Pictures />
         {isEditing.value ? (
           <MaskStage />
         ) : (
           <>
             {corrects && <NextLine />}
-            <Stage />
+            <Stage key={view.picture.url} />
           </>
         )}
       </div>
@@ -73,11 +73,7 @@ export function Workbench() {
             </div>
           )}
           {!isNarrow.value && <PersonPanel />}
-          {liveProblem.value && (
-            <div class="section is-tight">
-              <ProblemNote problem={liveProblem.value} />
-            </div>
-          )}
+          <Notes problem={problem} />
           <details class="corrections" open={corrects} onToggle={({ currentTarget }) => (isCorrecting.value = currentTarget.open)}>
             <summary>
               <h2>{panel.correct}</h2> <span class="count">{panel.correctWhat}</span>
@@ -88,5 +84,17 @@ export function Workbench() {
         <SubmitBar />
       </div>
     </main>
+  );
+}
+
+/** What the service says of the picture that is looked at. */
+function Notes({ problem }: { problem: Parameters<typeof ProblemNote>[0]["problem"] | null }) {
+  const findings = proposal.value?.findings ?? [];
+  if (!problem && findings.length === 0) return null;
+  return (
+    <div class="section is-tight">
+      {problem && <ProblemNote problem={problem} />}
+      <Findings findings={findings} />
+    </div>
   );
 }

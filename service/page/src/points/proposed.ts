@@ -1,7 +1,7 @@
 // Points as the service proposes them, and who they may belong to.
 import type { PointsProposal } from "../api/types";
 import { isPointName } from "./catalogue";
-import { namedPoints } from "./coco";
+import { namedPoints } from "./named";
 import { NO_POINTS, isEnough, skipRest } from "./placed";
 import type { Points } from "./placed";
 

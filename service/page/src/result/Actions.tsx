@@ -1,24 +1,22 @@
-// What can be done with a finished fit: keep its link, change it, erase it.
+// What can be done with a finished fit: correct it, keep its link, erase it.
 import { useSignal } from "@preact/signals";
 import { eraseFit } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { Fit } from "../api/fits";
-import type { Problem } from "../api/types";
+import type { Fit, Problem } from "../api/types";
+import { openAgain } from "../draft/open";
 import type { Picture } from "../draft/picture";
 import { forget } from "../history/store";
 import { messages } from "../messages";
-import { beginning, go } from "../route";
+import { START_ADDRESS, go } from "../route";
 import { announce } from "../ui/announce";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { useQuestion } from "../ui/question";
-import { changeAgain } from "./again";
 
 const COPIED_MS = 2000;
 
 export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
-  const { fit: { of }, result: words } = messages;
-  const own = of[fit.kind];
+  const { result: words } = messages;
   const problem = useSignal<Problem | null>(null);
   const copied = useSignal(false);
   const question = useQuestion();
@@ -39,16 +37,16 @@ export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Pictur
     });
   const erase = () =>
     attempt(async () => {
-      await eraseFit(fit);
+      await eraseFit(fit.id);
       forget(fit.id);
-      go(beginning(fit.kind));
+      go(START_ADDRESS);
     });
   return (
     <div class="submit">
       {problem.value && <ProblemNote problem={problem.value} />}
       {question.isAsked ? (
-        <div class="submit-row" role="group" aria-label={own.deleteQuestion}>
-          <span class="grow">{own.erase}</span>
+        <div class="submit-row" role="group" aria-label={words.deleteQuestion}>
+          <span class="grow">{words.deleteQuestion}</span>
           <button class="button" type="button" ref={question.refusal} onClick={question.leave}>
             {words.keep}
           </button>
@@ -58,16 +56,11 @@ export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Pictur
         </div>
       ) : (
         <div class="submit-row">
-          <button
-            class="button grow"
-            type="button"
-            disabled={pictures.length === 0}
-            onClick={() => attempt(() => changeAgain(fit, pictures))}
-          >
-            {own.again}
+          <button class="button grow" type="button" disabled={pictures.length === 0} onClick={() => attempt(() => openAgain(fit, 0, pictures))}>
+            {words.again}
           </button>
-          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : own.copy} onClick={copy} />
-          <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />
+          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : words.copy} onClick={copy} />
+          <IconButton icon="trash" label={words.deleteFit} onClick={question.ask} buttonRef={question.asker} />
         </div>
       )}
     </div>

@@ -1,42 +1,40 @@
 // The body upright with its tapes, in its own skin, or over its picture; what experts look at is folded.
 import { useSignal } from "@preact/signals";
 import { useState } from "preact/hooks";
-import { nameOfView } from "../api/fits";
-import type { Fit, Result } from "../api/fits";
-import type { Skin } from "../derived/skin";
+import type { Fit, FitResult } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { facingsOf, isEmpty } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import type { Turning } from "../flip/useFlips";
 import { hoverWords } from "../flip/words";
-import { viewLabels } from "../measure/views";
 import { percent } from "../messages/figures";
 import { messages } from "../messages";
+import { viewLabels } from "../messages/viewNames";
+import type { Skin } from "../products/skin";
 import { Choice } from "../ui/Choice";
+import { Slider } from "../ui/Slider";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
-import type { Cues } from "../api/types";
-import type { Surface } from "../viewer/surface";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
-import { MaskOutline } from "../ui/MaskOutline";
 import { SideView } from "../viewer/SideView";
+import { SURFACES } from "../viewer/surface";
+import type { Surface } from "../viewer/surface";
 import type { TapeEnds } from "../viewer/Tapes";
 import type { Side } from "../viewer/Turntable";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
-import { isComparable, useBodiesBeforeShading, usePictureOf } from "./files";
+import { nameOfView, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
 const POSES = ["canonical", "turned"] as const;
-const SURFACES = ["clay", "lit", "albedo", "specularity", "shading", "residual"] as const;
-const BODIES = ["SES", "SE"] as const;
+const OPACITIES = { least: 0, most: 1, step: 0.01 } as const;
 
 /** What is on the stage: the body in one of its places, or its skin. */
 export type Shown = Placement | "skin";
 
 interface Props {
   readonly fit: Fit;
-  readonly result: Result;
+  readonly result: FitResult;
   readonly files: ResultFiles;
   /** That of the files. */
   readonly picture: Picture;
@@ -49,38 +47,30 @@ interface Props {
   readonly onShow: (shown: Shown) => void;
   readonly skin: Skin;
   readonly turning: Turning;
-  /** Null where nothing is known of how limbs slant. */
-  readonly onFlip: ((limb: TurnedLimb) => void) | null;
+  readonly onFlip: (limb: TurnedLimb) => void;
   readonly measure: string | null;
   readonly onPoint: (name: string | null) => void;
   readonly onMeasure: (name: string) => void;
 }
 
 export function Look(props: Props) {
-  const { fit, result, files, picture, chosen: wanted, onChoose, hidden, shown, onShow, skin, turning, onFlip, measure, onPoint, onMeasure } = props;
+  const { fit, result, files, picture, chosen, onChoose, hidden, shown, onShow, skin, turning, onFlip, measure, onPoint, onMeasure } = props;
   const { number } = files;
-  const { derived, limbs, look } = messages;
+  const { limbs, look, products } = messages;
   const { flips, pointedAt } = turning;
   const isSkin = shown === "skin";
   const placement = isSkin ? "canonical" : shown;
   const [surface, setSurface] = useState<Surface>("clay");
   const [opacity, setOpacity] = useState(0.85);
   const [lines, setLines] = useState(false);
-  const [mask, setMask] = useState(false);
   const [failed, setFailed] = useState(false);
-  const [chosen, setBody] = useState<Cues>("SES");
-  // Limbs are turned on the body that was found in the end.
-  const body = isEmpty(flips) ? chosen : "SES";
   const [from, setFrom] = useState<{ readonly side: Side } | null>(null);
   const ends = useSignal<readonly TapeEnds[]>([]);
-  const comparable = isComparable(fit);
-  const outlined = useBodiesBeforeShading(fit, number, comparable && (body === "SE" || surface === "change"));
-  const surfaces: readonly Surface[] = files.posed.light === null || body === "SE" ? ["clay"] : comparable ? [...SURFACES, "change"] : SURFACES;
+  const surfaces: readonly Surface[] = files.posed.light === null ? ["clay"] : SURFACES;
   const over = placement === "picture";
-  const turns = !isSkin && placement !== "canonical" && body === "SES";
+  const turns = !isSkin && placement !== "canonical";
   const found = pointedAt && facingsOf(result.views[number]!)[pointedAt];
-  const overlay = usePictureOf(fit, nameOfView(fit, "overlay.png", number), (lines || failed) && over);
-  const segmentation = usePictureOf(fit, nameOfView(fit, "segmentation.png", number), mask && over);
+  const overlay = usePictureOf(fit.links, nameOfView(number, "overlay.png"), (lines || failed) && over);
   const views = [
     { value: "body", ...look.views.body },
     ...(skin.state === "none" ? [] : [{ value: "skin" as const, ...look.views.skin }]),
@@ -103,24 +93,12 @@ export function Look(props: Props) {
             legend={look.whichPicture}
             quiet
             options={viewLabels(result.views).map((label, at) => ({ value: String(at), label }))}
-            value={String(wanted)}
+            value={String(chosen)}
             onChange={(at) => onChoose(Number(at))}
           />
         )}
         {over ? (
-          <label class="slider">
-            <span>{look.body}</span>
-            <input
-              type="range"
-              min="0"
-              max="1"
-              step="0.01"
-              value={opacity}
-              aria-label={look.opacity}
-              onInput={(event) => setOpacity(Number(event.currentTarget.value))}
-            />
-            <output>{percent(opacity)}</output>
-          </label>
+          <Slider label={look.body} named={look.opacity} range={OPACITIES} value={opacity} text={percent(opacity)} onInput={setOpacity} />
         ) : (
           <FromSides onLook={setFrom} />
         )}
@@ -135,10 +113,7 @@ export function Look(props: Props) {
           ) : (
             <BodyCanvas
               posed={files.posed}
-              outlined={outlined}
-              body={body}
               canonical={files.canonical}
-              picture={picture.element}
               tapes={files.tapes}
               marked={measure}
               placement={placement}
@@ -149,19 +124,18 @@ export function Look(props: Props) {
               flips={flips}
               limb={pointedAt}
               onPointLimb={turning.point}
-              onFlip={onFlip ?? undefined}
+              onFlip={onFlip}
               onFailure={() => setFailed(true)}
             />
           )}
           {placement === "canonical" && !failed && (
             <TapeLabels ends={ends} measurements={result.measurements} marked={measure} hasSkin={skin.path !== null} onPoint={onPoint} onShow={onMeasure} />
           )}
-          {over && mask && segmentation && <MaskOutline url={segmentation} label={look.silhouetteLabel} />}
         </div>
         {isSkin && (
           <div class="look-free">
             {skin.path ? (
-              <DerivedCanvas path={skin.path} label={derived.texture.turned} like={files} turns from={from} />
+              <DerivedCanvas path={skin.path} label={products.texture.turned} like={files} turns from={from} />
             ) : (
               <div class="look-loading" role="status">
                 {look.skinComes}
@@ -171,7 +145,7 @@ export function Look(props: Props) {
         )}
         {shown === "canonical" && skin.path && (
           <button class="look-beside" type="button" aria-label={look.showSkin} onClick={() => onShow("skin")}>
-            <DerivedCanvas path={skin.path} label={derived.texture.turned} like={files} turns small />
+            <DerivedCanvas path={skin.path} label={products.texture.turned} like={files} turns small />
           </button>
         )}
         {over && !failed && <SideView posed={files.posed} canonical={files.canonical} flips={flips} />}
@@ -183,11 +157,6 @@ export function Look(props: Props) {
         )}
         {!over && <p class="look-hint fine">{look.hint}</p>}
       </div>
-      {surface === "change" && !isSkin && (
-        <p class="look-legend fine">
-          {look.changed} <b class="is-outward">{look.outward}</b>, <b class="is-inward">{look.inward}</b>; {look.fullColour}
-        </p>
-      )}
       {!isSkin && (
         <details class="look-experts">
           <summary>{look.experts}</summary>
@@ -203,37 +172,18 @@ export function Look(props: Props) {
               value={surface}
               onChange={setSurface}
             />
-            {comparable && (
-              <Choice
-                name="compared"
-                legend={look.found}
-                quiet
-                options={BODIES.map((value) => ({ value, ...look.bodies[value] }))}
-                value={body}
-                onChange={(value) => {
-                  setBody(value);
-                  if (value === "SE") setSurface("clay");
-                }}
-              />
-            )}
             {over && (
-              <>
-                <label class="check">
-                  <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
-                  {look.silhouette}
-                </label>
-                <label class="check">
-                  <input
-                    type="checkbox"
-                    checked={lines}
-                    onChange={(event) => {
-                      setLines(event.currentTarget.checked);
-                      if (event.currentTarget.checked) setOpacity(0);
-                    }}
-                  />
-                  {look.outline}
-                </label>
-              </>
+              <label class="check">
+                <input
+                  type="checkbox"
+                  checked={lines}
+                  onChange={(event) => {
+                    setLines(event.currentTarget.checked);
+                    if (event.currentTarget.checked) setOpacity(0);
+                  }}
+                />
+                {look.outline}
+              </label>
             )}
           </div>
         </details>

@@ -1,34 +1,29 @@
-// The measurements with their intervals, and what shading changed in them.
-import { useState } from "preact/hooks";
-import type { Measurement, StageMeasurement } from "../api/types";
+// The measurements with their intervals.
+import type { Measurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { percent } from "../messages/figures";
 import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
-import { INTERVAL_SHARE, difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
+import { INTERVAL_SHARE, furtherMeasures, isChief, measureLabel, shown } from "./reading";
 
 interface Props {
   readonly measurements: readonly Measurement[];
-  /** The same by silhouette and edges alone, where they can be compared. */
-  readonly before: readonly StageMeasurement[] | null;
   /** Whether the body they are of fits its picture. */
-  readonly reliable?: boolean;
+  readonly reliable: boolean;
   readonly pointedAt: string | null;
   readonly onPoint: (name: string | null) => void;
   /** Show where a measurement is taken. */
   readonly onShow: (name: string) => void;
 }
 
-export function Measures({ measurements, before, reliable = true, pointedAt, onPoint, onShow }: Props) {
+export function Measures({ measurements, reliable, pointedAt, onPoint, onShow }: Props) {
   const { frame, person: said, result: words } = messages;
-  const [compared, setCompared] = useState(false);
   const { units } = person.value;
   const further = furtherMeasures(measurements);
   const look = reliable ? "measures" : "measures is-unreliable";
   const row = (measurement: Measurement) => {
     const { value, unit, interval } = shown(measurement, units);
-    const other = compared ? before?.find((each) => each.name === measurement.name) : undefined;
     return (
       <tr
         key={measurement.name}
@@ -53,9 +48,7 @@ export function Measures({ measurements, before, reliable = true, pointedAt, onP
           {value} <small>{unit}</small>
         </td>
         <td class="number interval">
-          {other
-            ? `${shown(other, units).value} (${difference(measurement, other, units)})`
-            : (interval ?? (measurement.given ? words.given : "–"))}
+          {interval ?? (measurement.given ? words.given : "–")}
         </td>
       </tr>
     );
@@ -77,16 +70,16 @@ export function Measures({ measurements, before, reliable = true, pointedAt, onP
         />
       </header>
       {!reliable && <p class="note is-problem">{words.unreliable}</p>}
-      {reliable && !compared && <p class="fine">{words.intervals(percent(INTERVAL_SHARE))}</p>}
+      {reliable && <p class="fine">{words.intervals(percent(INTERVAL_SHARE))}</p>}
       <table class={look}>
-        <MeasuresHead compared={compared} />
+        <MeasuresHead />
         <tbody>{measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
       </table>
       {further.length > 0 && (
         <details class="more-measures">
           <summary>{words.more(further.reduce((count, group) => count + group.members.length, 0))}</summary>
           <table class={look}>
-            <MeasuresHead compared={compared} />
+            <MeasuresHead />
             {further.map((group) => (
               <tbody key={group.heading}>
                 <tr class="measures-group">
@@ -100,12 +93,6 @@ export function Measures({ measurements, before, reliable = true, pointedAt, onP
           </table>
         </details>
       )}
-      {before && (
-        <label class="check">
-          <input type="checkbox" checked={compared} onChange={(event) => setCompared(event.currentTarget.checked)} />
-          {words.compare}
-        </label>
-      )}
       <p class="fine">{words.note}</p>
     </section>
   );
@@ -116,7 +103,7 @@ export function rowOf(name: string): string {
   return `measure-${name}`;
 }
 
-export function MeasuresHead({ compared = false }: { readonly compared?: boolean }) {
+function MeasuresHead() {
   const { head } = messages.result;
   return (
     <thead>
@@ -126,7 +113,7 @@ export function MeasuresHead({ compared = false }: { readonly compared?: boolean
           {head.value}
         </th>
         <th scope="col" class="number">
-          {compared ? head.outline : head.interval(percent(INTERVAL_SHARE))}
+          {head.interval(percent(INTERVAL_SHARE))}
         </th>
       </tr>
     </thead>

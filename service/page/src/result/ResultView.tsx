@@ -1,10 +1,7 @@
 // What came out: to look at on the left, to read on the right.
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Fit, Result } from "../api/fits";
-import type { Derivation, NamedMotion } from "../api/types";
-import { DerivedPanel } from "../derived/DerivedPanelLater";
-import { ProductStage } from "../derived/ProductStageLater";
-import { useSkin } from "../derived/skin";
+import type { Fit, FitResult, Product } from "../api/types";
+import { openAgain } from "../draft/open";
 import type { Picture } from "../draft/picture";
 import { LimbList, goToLimb, openList } from "../flip/LimbList";
 import { PreviewBar } from "../flip/PreviewBar";
@@ -12,26 +9,29 @@ import { areAllEmpty, isTurnedLimb } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import { useFlips } from "../flip/useFlips";
 import { messages } from "../messages";
-import { openAgain } from "../panel/open";
+import { viewTitles } from "../messages/viewNames";
+import { useSkin } from "../products/skin";
 import { useEscape } from "../ui/escape";
+import { later } from "../ui/later";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Actions } from "./Actions";
 import { Downloads } from "./Downloads";
-import { Facts, ForExperts, Quality } from "./Facts";
 import { Figures } from "./Figures";
-import { OfPictures } from "./OfPictures";
-import { useResultFiles } from "./files";
-import { Keep } from "./Keep";
 import { Loading } from "./Loading";
 import { Look } from "./Look";
 import type { Shown } from "./Look";
 import { Measures, rowOf } from "./Measures";
+import { ForExperts, Notes } from "./Notes";
 import { Withheld } from "./Withheld";
-import { changeAgain, measureAnyway } from "./again";
-import { gradeOf } from "./grade";
-import { headingOf, isContradicted } from "./outcome";
+import { measureAnyway } from "./again";
+import { useResultFiles } from "./files";
+import { gradeOf, headingOf, isReliable as reliable } from "./quality";
 
-const NO_VIEWS: Result["views"] = [];
+// What can be made of a result is loaded after the result.
+const ProductsPanel = later(() => import("../products/ProductsPanel").then((loaded) => loaded.ProductsPanel), null);
+const ProductStage = later(() => import("../products/ProductStage").then((loaded) => loaded.ProductStage), null);
+
+const NO_VIEWS: FitResult["views"] = [];
 
 export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
   const { result: words } = messages;
@@ -40,16 +40,15 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   const [pointedAt, pointAt] = useState<string | null>(null);
   const [shown, show] = useState<string | null>(null);
   const [looked, lookAt] = useState<Shown | null>(null);
-  const [product, setProduct] = useState<Derivation | null>(null);
-  const [motion, wishMotion] = useState<NamedMotion | null>(null);
+  const [product, setProduct] = useState<Product | null>(null);
   const [sought, seek] = useState<TurnedLimb | null>(null);
   const number = files?.number ?? wanted;
   const views = result?.views ?? NO_VIEWS;
   const view = views[number];
-  const isReliable = views.every((each) => gradeOf(each) !== "poor");
+  const isReliable = result === null || reliable(result);
   // A body that does not fit is judged over its picture.
   const onStage = looked ?? (isReliable ? "canonical" : "picture");
-  const skin = useSkin(fit, result !== null && !isContradicted(result));
+  const skin = useSkin(fit.id, result?.verdict === "plausible");
   const picture = pictures[number] ?? null;
   const turning = useFlips(views, number);
   const stage = useRef<HTMLDivElement>(null);
@@ -71,10 +70,10 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     [!areAllEmpty(turning.all), turning.takeBack],
     [shown !== null, () => show(null)],
   ]);
-  const correct = picture ? (of: number) => void openAgain(fit, of, pictures[of]!) : null;
+  const correct = picture ? (of: number) => void openAgain(fit, of, pictures) : null;
   const sayWhich = (limbs: readonly string[], of: number) => {
     const limb = limbs.find(isTurnedLimb);
-    if (!limb) return void (correct ? correct(of) : changeAgain(fit, pictures));
+    if (!limb) return correct?.(of);
     want(of);
     // Upright, all limbs hang down.
     lookAt("picture");
@@ -88,25 +87,21 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       </main>
     );
   }
-  // Earlier versions told none of several pictures.
-  const knowsLimbs = view !== undefined && view.limb_facing.length > 0;
   const flipOnBody = (limb: TurnedLimb) => {
     openList();
     turning.flip(limb);
   };
-  const facts = result && { fit, result, onSayWhich: picture && sayWhich, onCorrect: correct };
   return (
     <main class="bench is-result" aria-busy={files === null || number !== wanted} data-fit={fit.id}>
       <header class="result-head">
         <div class="result-title">
           <h1 class="title">{result ? headingOf(result) : words.body}</h1>
-          {result && <Keep fit={fit} hasTable={result.measurements.length > 0} skin={skin.path} />}
         </div>
         {result ? <Quality result={result} /> : <p class="fine">{words.loading}</p>}
         {result && result.measurements.length > 0 && <Figures measurements={result.measurements} reliable={isReliable} />}
       </header>
       <div class="bench-stage" ref={stage}>
-        {product && <ProductStage key={product.kind} made={product} onBack={() => setProduct(null)} motion={motion} onMotion={wishMotion} />}
+        {product && <ProductStage product={product} onBack={() => setProduct(null)} />}
         {result && files && picture ? (
           <Look
             fit={fit}
@@ -120,7 +115,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             onShow={lookAt}
             skin={skin}
             turning={turning}
-            onFlip={knowsLimbs ? flipOnBody : null}
+            onFlip={flipOnBody}
             measure={pointedAt ?? shown}
             onPoint={pointAt}
             onMeasure={(name) => {
@@ -134,13 +129,11 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       </div>
       <div class="panel">
         <div class="panel-scroll">
-          {facts && <Facts {...facts} />}
-          {facts && views.length > 1 && <OfPictures {...facts} />}
+          {result && <Notes result={result} onSayWhich={picture && sayWhich} onCorrect={correct} />}
           {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureAnyway(fit)} />}
           {result && result.measurements.length > 0 && (
             <Measures
               measurements={result.measurements}
-              before={result.outlined}
               reliable={isReliable}
               pointedAt={pointedAt ?? shown}
               onPoint={pointAt}
@@ -152,10 +145,10 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
               }}
             />
           )}
-          {view && knowsLimbs && (
+          {view && (
             <LimbList
               view={view}
-              isOfSeveral={views.length > 1}
+              title={views.length > 1 ? viewTitles(views)[number]! : null}
               flips={turning.flips}
               pointedAt={turning.pointedAt}
               onPoint={turning.point}
@@ -169,21 +162,25 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             />
           )}
           {result && (
-            <DerivedPanel
-              parent={fit}
-              skin={skin.id}
+            <ProductsPanel
+              fitId={fit.id}
               hasLight={views[0]!.light !== null}
               onStage={product?.id ?? null}
-              motion={motion}
-              onMotionEnded={() => wishMotion(null)}
               onShow={(made) => {
                 setProduct(made);
-                if (made) toStage();
+                toStage();
               }}
             />
           )}
           {result && <ForExperts result={result} />}
-          {result && <Downloads fit={fit} result={result} />}
+          {result && (
+            <details class="section fold-section">
+              <summary>
+                <h2>{messages.files.title}</h2>
+              </summary>
+              <Downloads files={filesOf(fit, result, skin.path)} sizes={new Map(result.files.map(({ name, size }) => [name, size]))} />
+            </details>
+          )}
         </div>
         {areAllEmpty(turning.all) ? (
           <Actions fit={fit} pictures={pictures} />
@@ -193,4 +190,22 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       </div>
     </main>
   );
+}
+
+function Quality({ result }: { result: FitResult }) {
+  const grade = gradeOf(result);
+  return (
+    <p class={`quality is-${grade}`} data-grade={grade}>
+      {messages.result.grades[grade]}
+    </p>
+  );
+}
+
+/** Those of the result, with the table that is written when it is asked for, and the body in its skin. */
+function filesOf({ links }: Fit, { measurements }: FitResult, skin: string | null): Readonly<Record<string, string>> {
+  return {
+    ...links.files,
+    ...(measurements.length > 0 ? { "measurements.csv": `${links.self}/files/measurements.csv` } : {}),
+    ...(skin ? { "body_textured.glb": skin } : {}),
+  };
 }

@@ -1,6 +1,6 @@
 // Measurements as a person reads them.
 import { MEASUREMENTS } from "../api/limits";
-import type { Measurement, StageMeasurement } from "../api/types";
+import type { Measurement } from "../api/types";
 import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
 import { plainName, wordFor } from "../messages/words";
@@ -12,7 +12,7 @@ const CM_PER_M = 100;
 const STATURE = "stature";
 const KG_PER_POUND = 0.45359237;
 /** So many standard errors to either side hold 95 of 100. */
-export const WITHIN_95 = 1.96;
+const WITHIN_95 = 1.96;
 
 export const INTERVAL_SHARE = 0.95;
 
@@ -57,7 +57,7 @@ export interface Shown {
   readonly interval: string | null;
 }
 
-export function shown(measurement: StageMeasurement, units: Person["units"]): Shown {
+export function shown(measurement: Measurement, units: Person["units"]): Shown {
   const { factor, unit } = inUnit(measurement.unit, units);
   const isInFeet = units === "imperial" && measurement.name === STATURE;
   const text = (value: number) => (isInFeet ? feetAndInches(value / CM_PER_M, 1) : decimal(value * factor, 1));
@@ -73,13 +73,7 @@ export function shown(measurement: StageMeasurement, units: Person["units"]): Sh
   };
 }
 
-export function difference(measurement: Measurement, other: Pick<Measurement, "value">, units: Person["units"]): string {
-  const { factor } = inUnit(measurement.unit, units);
-  const by = (measurement.value - other.value) * factor;
-  return Math.abs(by) < 0.05 ? decimal(0, 1) : `${by > 0 ? "+" : "−"}${decimal(Math.abs(by), 1)}`;
-}
-
-export function inUnit(unit: string, units: Person["units"]): { factor: number; unit: string } {
+function inUnit(unit: string, units: Person["units"]): { factor: number; unit: string } {
   if (units === "metric") return { factor: 1, unit };
   return unit === "kg" ? { factor: 1 / KG_PER_POUND, unit: "lb" } : { factor: 1 / CM_PER_INCH, unit: "in" };
 }

@@ -1,7 +1,7 @@
 // The picture with its points: where a person clicks.
 import { untracked, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { adjust, isCorrecting, mask, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { adjust, current, isCorrecting, mask, points, selected, timeline, upcoming } from "../draft/draft";
 import { proposalWord } from "../draft/proposing";
 import { isEdited, shownMask } from "../mask/edits";
 import { MaskLayer } from "../mask/MaskLayer";
@@ -26,7 +26,7 @@ const GRIP_PX = { mouse: 10, touch: 22 };
 
 export function Stage() {
   const { points: words, stage } = messages;
-  const shown = picture.value!;
+  const shown = current.value!.picture;
   const lies = usePictureView(shown);
   const { box, size, view, pan, pinch } = lies;
   const aim = useSignal<{ at: Spot; touch: boolean } | null>(null);

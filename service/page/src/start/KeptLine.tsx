@@ -20,7 +20,7 @@ export function KeptLine() {
   const hours = retentionHours.value;
   return (
     <p class="fine start-kept">
-      {hours === null ? kept.untold : kept.erased(duration(hours))} {kept.draft}
+      {hours === null ? kept.untold : kept.erased(duration(hours))}
     </p>
   );
 }

@@ -1,15 +1,17 @@
 // What the page says of an answer by its code; null where the service's own words are to be shown.
 import { messages } from "../messages";
-import { wordFor } from "../messages/words";
+import { plainName, wordFor } from "../messages/words";
 
 export function answered(kind: keyof typeof messages.answers, code: string): string | null {
   return wordFor(messages.answers[kind], code);
 }
 
-/** `points.left_hip` as a person says it. */
+/** `views.1.points.left_hip` as a person says it. */
 export function fieldName(field: string): string {
-  const { frame, measures, points } = messages;
+  const { fit, frame, measures, points } = messages;
   const words: Readonly<Record<string, string>> = { ...points.labels, ...measures.labels, ...frame.fields };
-  const own = field.replace(/^(points|measurements)\./, "").replace(/\.(value|standard_error)$/, "");
-  return Object.hasOwn(words, own) ? words[own]! : own.replaceAll("_", " ");
+  const [, number, within = ""] = /^(?:views\.(\d+)\.?)?(.*)$/.exec(field) ?? [];
+  const own = within.replace(/^(points|measurements)\./, "").replace(/\.(value|standard_error)$/, "");
+  const named = wordFor(words, own) ?? plainName(own);
+  return number === undefined ? named : [fit.picture(Number(number) + 1), named].filter(Boolean).join(", ");
 }

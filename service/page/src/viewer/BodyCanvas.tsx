@@ -1,10 +1,8 @@
 // The WebGL canvas as a component; three.js is loaded with it, not with the page.
 import { useEffect, useRef } from "preact/hooks";
-import type { Cues } from "../api/types";
-import { NO_FLIPS } from "../flip/flips";
 import type { Flips, TurnedLimb } from "../flip/flips";
 import { messages } from "../messages";
-import type { BodyScene, Placement, PosedAndUpright } from "./BodyScene";
+import type { BodyScene, Placement } from "./BodyScene";
 import type { GlbBody } from "./glb";
 import type { Surface } from "./surface";
 import type { TapeEnds, TapeLines } from "./Tapes";
@@ -13,10 +11,6 @@ import type { Side } from "./Turntable";
 interface Props {
   readonly posed: GlbBody;
   readonly canonical: GlbBody | null;
-  /** The same before shading, once there; shown where `body` is SE. */
-  readonly outlined: PosedAndUpright | null;
-  readonly body: Cues;
-  readonly picture: HTMLImageElement;
   readonly tapes: TapeLines;
   /** The measurement whose tape stands out. */
   readonly marked: string | null;
@@ -24,15 +18,15 @@ interface Props {
   readonly surface: Surface;
   readonly opacity: number;
   /** From where it is to be looked at, anew with each object; null leaves the view as it is. */
-  readonly from?: { readonly side: Side } | null;
+  readonly from: { readonly side: Side } | null;
   /** Where the tapes lie on the canvas. */
-  readonly onTapes?: (ends: readonly TapeEnds[]) => void;
+  readonly onTapes: (ends: readonly TapeEnds[]) => void;
   /** Limbs that are seen turned the other way. */
-  readonly flips?: Flips;
+  readonly flips: Flips;
   /** The limb that stands out. */
-  readonly limb?: TurnedLimb | null;
-  readonly onPointLimb?: (limb: TurnedLimb | null) => void;
-  readonly onFlip?: (limb: TurnedLimb) => void;
+  readonly limb: TurnedLimb | null;
+  readonly onPointLimb: (limb: TurnedLimb | null) => void;
+  readonly onFlip: (limb: TurnedLimb) => void;
   readonly onFailure: () => void;
 }
 
@@ -40,11 +34,11 @@ interface Props {
 const CLICK_WITHIN_PX = 5;
 
 export function BodyCanvas(props: Props) {
-  const { posed, canonical, outlined, body, picture, tapes, marked, placement, surface, opacity, from = null, onTapes, flips = NO_FLIPS, limb = null, onPointLimb, onFlip, onFailure } = props;
+  const { posed, canonical, tapes, marked, placement, surface, opacity, from, onTapes, flips, limb, onPointLimb, onFlip, onFailure } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<BodyScene | null>(null);
-  const wanted = useRef({ placement, surface, outlined, body, marked, flips, limb });
-  wanted.current = { placement, surface, outlined, body, marked, flips, limb };
+  const wanted = useRef({ placement, surface, marked, flips, limb });
+  wanted.current = { placement, surface, marked, flips, limb };
   const pressed = useRef({ x: 0, y: 0 });
 
   useEffect(() => {
@@ -56,18 +50,16 @@ export function BodyCanvas(props: Props) {
     void import("./BodyScene").then(({ BodyScene }) => {
       if (gone) return;
       try {
-        scene.current = new BodyScene(target, posed, canonical, picture, tapes);
+        scene.current = new BodyScene(target, posed, canonical, tapes);
       } catch {
         return onFailure();
       }
       scene.current.place(wanted.current.placement);
-      scene.current.compareWith(wanted.current.outlined);
-      scene.current.show(wanted.current.body);
       scene.current.surface(wanted.current.surface);
       scene.current.mark(wanted.current.marked);
-      if (onTapes) scene.current.followTapes(onTapes);
+      scene.current.followTapes(onTapes);
       observer.observe(target);
-      if (onFlip) void takeLimbs(scene.current);
+      void takeLimbs(scene.current);
     }, onFailure);
     return () => {
       gone = true;
@@ -75,7 +67,7 @@ export function BodyCanvas(props: Props) {
       scene.current?.dispose();
       scene.current = null;
     };
-  }, [posed, canonical, picture, tapes]);
+  }, [posed, canonical, tapes]);
 
   const takeLimbs = async (made: BodyScene) => {
     const tools = await import("../flip/limbs").catch(() => null);
@@ -86,11 +78,7 @@ export function BodyCanvas(props: Props) {
   };
 
   useEffect(() => scene.current?.place(placement), [placement]);
-  useEffect(() => {
-    scene.current?.compareWith(outlined);
-    scene.current?.show(body);
-    scene.current?.surface(surface);
-  }, [outlined, body, surface]);
+  useEffect(() => scene.current?.surface(surface), [surface]);
   useEffect(() => scene.current?.mark(marked), [marked]);
   useEffect(() => scene.current?.turnLimbs(flips), [flips]);
   useEffect(() => scene.current?.markLimb(limb), [limb]);
@@ -110,12 +98,12 @@ export function BodyCanvas(props: Props) {
       onPointerDown={({ clientX: x, clientY: y }) => (pressed.current = { x, y })}
       onPointerMove={({ clientX, clientY, pointerType, buttons }) => {
         // A finger points at nothing before it taps, and a body that is being turned is not pointed at.
-        if (pointerType !== "touch" && buttons === 0) onPointLimb?.(scene.current?.limbAt(clientX, clientY) ?? null);
+        if (pointerType !== "touch" && buttons === 0) onPointLimb(scene.current?.limbAt(clientX, clientY) ?? null);
       }}
-      onPointerLeave={() => onPointLimb?.(null)}
+      onPointerLeave={() => onPointLimb(null)}
       onClick={({ clientX, clientY }) => {
         const { x, y } = pressed.current;
-        if (!onFlip || Math.hypot(clientX - x, clientY - y) > CLICK_WITHIN_PX) return;
+        if (Math.hypot(clientX - x, clientY - y) > CLICK_WITHIN_PX) return;
         const found = scene.current?.limbAt(clientX, clientY);
         if (found) onFlip(found);
       }}

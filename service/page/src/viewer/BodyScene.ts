@@ -1,12 +1,11 @@
 // The body in WebGL: over its picture by the fitted camera, or turned freely.
-import { BufferAttribute, LinearFilter, NoColorSpace, Scene, Texture, Vector3, WebGLRenderer } from "three";
-import type { Cues } from "../api/types";
+import { Scene, Vector3, WebGLRenderer } from "three";
 import { NO_FLIPS } from "../flip/flips";
 import type { Flips, TurnedLimb } from "../flip/flips";
 import { facingOf } from "./facing";
 import { Floor } from "./Floor";
 import type { GlbBody } from "./glb";
-import { bodyPart, shiftAlongNormals } from "./bodyPart";
+import { bodyPart } from "./bodyPart";
 import type { Part } from "./bodyPart";
 import { SURFACES } from "./surface";
 import type { Surface } from "./surface";
@@ -23,27 +22,14 @@ const FROM_ASIDE = 0.35;
 /** Loaded when the body is there, not with it. */
 export type LimbTools = typeof import("../flip/limbs");
 
-export interface PosedAndUpright {
-  readonly posed: GlbBody;
-  readonly canonical: GlbBody | null;
-}
-
-interface Parts {
-  readonly posed: Part;
-  readonly canonical: Part | null;
-}
-
 export class BodyScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly table: Turntable;
-  private readonly parts: Parts;
-  /** The body before shading, where it is to be compared. */
-  private outlined: Parts | null = null;
-  private cues: Cues = "SES";
+  private readonly posed: Part;
+  private readonly canonical: Part | null;
   private kind: Surface = "lit";
   private marked: string | null = null;
-  private readonly texture: Texture;
   private readonly tapes: Tapes;
   private readonly floor = new Floor();
   /** Where the posed body faces, radians to the right of +z. */
@@ -60,19 +46,15 @@ export class BodyScene {
   constructor(
     canvas: HTMLCanvasElement,
     private readonly body: GlbBody,
-    private readonly upright: GlbBody | null,
-    picture: HTMLImageElement,
+    upright: GlbBody | null,
     tapes: TapeLines,
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(0, 0);
-    this.texture = new Texture(picture);
-    this.texture.colorSpace = NoColorSpace;
-    this.texture.generateMipmaps = false;
-    this.texture.minFilter = LinearFilter;
-    this.texture.needsUpdate = true;
-    this.parts = this.added({ posed: body, canonical: upright });
+    this.posed = bodyPart(body, body);
+    this.canonical = upright && bodyPart(upright, body);
+    for (const { mesh } of this.parts()) this.scene.add(mesh);
     this.tapes = new Tapes(tapes);
     this.scene.add(this.tapes.group, this.floor.mesh);
     this.facing = facingOf(body, upright);
@@ -111,26 +93,7 @@ export class BodyScene {
 
   surface(kind: Surface): void {
     this.kind = kind;
-    for (const each of this.all()) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
-    this.draw();
-  }
-
-  /** Take in the body before shading, and what shading changed of it. */
-  compareWith(outlined: PosedAndUpright | null): void {
-    if (!outlined || this.outlined) return;
-    this.outlined = this.added(outlined);
-    if (this.upright && outlined.canonical) {
-      const shift = new BufferAttribute(shiftAlongNormals(outlined.canonical, this.upright), 1);
-      for (const each of partsOf(this.parts)) each.mesh.geometry.setAttribute("shift", shift);
-    }
-    this.reveal();
-    this.draw();
-  }
-
-  /** The body by all cues, or before shading; the view stays. */
-  show(cues: Cues): void {
-    this.cues = cues;
-    this.reveal();
+    for (const each of this.parts()) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
     this.draw();
   }
 
@@ -150,7 +113,7 @@ export class BodyScene {
   /** The posed body with these limbs turned. */
   turnLimbs(flips: Flips): void {
     this.flips = flips;
-    this.limbTools?.reshape(this.parts.posed.mesh, this.limbTools.bent(this.body, flips) ?? this.body);
+    this.limbTools?.reshape(this.posed.mesh, this.limbTools.bent(this.body, flips) ?? this.body);
     if (this.placement === "turned") this.layFloor();
     this.markLimb(this.pointedAt);
   }
@@ -158,13 +121,13 @@ export class BodyScene {
   /** Let a limb of the posed body stand out. */
   markLimb(limb: TurnedLimb | null): void {
     this.pointedAt = limb;
-    this.limbTools?.markLimbs(this.parts.posed.mesh, limb, this.flips);
+    this.limbTools?.markLimbs(this.posed.mesh, limb, this.flips);
     this.draw();
   }
 
   /** The limb at a place of the window, where one can be turned. */
   limbAt(clientX: number, clientY: number): TurnedLimb | null {
-    const { mesh } = this.parts.posed;
+    const { mesh } = this.posed;
     if (!this.limbTools || this.shown().mesh !== mesh) return null;
     const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
     return this.limbTools.limbUnder(mesh, this.table.camera, (2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
@@ -187,10 +150,9 @@ export class BodyScene {
   dispose(): void {
     cancelAnimationFrame(this.scheduled);
     this.table.dispose();
-    this.texture.dispose();
     this.tapes.dispose();
     this.floor.dispose();
-    for (const each of this.all()) {
+    for (const each of this.parts()) {
       each.mesh.geometry.dispose();
       each.mesh.material.dispose();
     }
@@ -198,28 +160,17 @@ export class BodyScene {
   }
 
   private shown(): Part {
-    const { posed, canonical } = (this.cues === "SE" && this.outlined) || this.parts;
-    return this.placement === "canonical" && canonical ? canonical : posed;
+    return this.placement === "canonical" && this.canonical ? this.canonical : this.posed;
   }
 
-  private added({ posed, canonical }: PosedAndUpright): Parts {
-    const parts = {
-      posed: bodyPart(posed, posed, this.texture),
-      canonical: canonical && bodyPart(canonical, posed, this.texture),
-    };
-    for (const each of partsOf(parts)) this.scene.add(each.mesh);
-    return parts;
-  }
-
-  private all(): Part[] {
-    return [...partsOf(this.parts), ...(this.outlined ? partsOf(this.outlined) : [])];
+  private parts(): Part[] {
+    return this.canonical ? [this.posed, this.canonical] : [this.posed];
   }
 
   private reveal(): void {
     const shown = this.shown();
-    for (const each of this.all()) each.mesh.visible = each === shown;
-    // Tapes lie on the final body's skin.
-    this.tapes.group.visible = shown === this.parts.canonical;
+    for (const each of this.parts()) each.mesh.visible = each === shown;
+    this.tapes.group.visible = shown === this.canonical;
     // Where the camera's tilt is not known, the posed body does not stand on anything.
     this.floor.mesh.visible = this.placement === "canonical" || (this.placement === "turned" && this.body.upright !== null);
   }
@@ -248,22 +199,18 @@ export class BodyScene {
     this.renderer.render(this.scene, camera);
     const { clientWidth, clientHeight } = this.renderer.domElement;
     this.onTapes?.(this.tapes.group.visible ? this.tapes.endsOn(camera, clientWidth, clientHeight) : []);
-    // What is drawn, not what is wanted: the outlined body comes later than its choice.
-    const cues = this.cues === "SE" && this.outlined ? "SE" : "SES";
     const { dataset } = this.renderer.domElement;
-    dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
+    dataset.shows = [this.placement, this.kind, this.marked ?? "none"].join(" ");
     if (this.limbTools) dataset.limbs = [this.pointedAt ?? "none", ...Object.entries(this.flips).flat()].join(" ");
   }
 
   /** Over its picture the body is in the camera's axes; turned, it stands as gravity has it. */
   private setUpright(): void {
-    for (const { posed } of [this.parts, this.outlined ?? this.parts]) {
-      const { mesh, centre } = posed;
-      mesh.quaternion.identity();
-      if (this.placement === "turned" && this.body.upright) mesh.quaternion.fromArray(this.body.upright);
-      mesh.position.copy(centre).sub(centre.clone().applyQuaternion(mesh.quaternion));
-      mesh.updateMatrixWorld();
-    }
+    const { mesh, centre } = this.posed;
+    mesh.quaternion.identity();
+    if (this.placement === "turned" && this.body.upright) mesh.quaternion.fromArray(this.body.upright);
+    mesh.position.copy(centre).sub(centre.clone().applyQuaternion(mesh.quaternion));
+    mesh.updateMatrixWorld();
   }
 
   private useFreeCamera(): void {
@@ -291,8 +238,4 @@ export class BodyScene {
     );
     fitted.projectionMatrixInverse.copy(fitted.projectionMatrix).invert();
   }
-}
-
-function partsOf({ posed, canonical }: Parts): Part[] {
-  return canonical ? [posed, canonical] : [posed];
 }

@@ -14,7 +14,7 @@ interface Props {
 }
 
 export function MotionBar({ scene, length }: Props) {
-  const { motion: words } = messages.derived;
+  const { motion: words } = messages.products;
   const [plays, play] = useState(() => !matchMedia("(prefers-reduced-motion: reduce)").matches);
   const [speed, setSpeed] = useState<(typeof SPEEDS)[number]>("1");
   const [at, seek] = useState(0);

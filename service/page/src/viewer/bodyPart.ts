@@ -1,6 +1,6 @@
 // A body as the mesh that WebGL draws, with all its surface is drawn by.
 import { BufferAttribute, BufferGeometry, Mesh, Vector3 } from "three";
-import type { ShaderMaterial, Texture } from "three";
+import type { ShaderMaterial } from "three";
 import type { GlbBody } from "./glb";
 import { surfaceMaterial } from "./surface";
 import type { Standing } from "./Turntable";
@@ -9,18 +9,8 @@ export interface Part extends Standing {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 }
 
-/** How far each vertex moved outward from one body to the other, along the latter's normals, metres. */
-export function shiftAlongNormals(before: GlbBody, after: GlbBody): Float32Array {
-  const [from, to, normals] = [before.positions, after.positions, after.normals];
-  return Float32Array.from({ length: to.length / 3 }, (_, vertex) => {
-    let along = 0;
-    for (let i = 3 * vertex; i < 3 * vertex + 3; i++) along += (to[i]! - from[i]!) * normals[i]!;
-    return along;
-  });
-}
-
-/** A mesh of the body as it is shown, with the posed one beside it for what the picture says. */
-export function bodyPart(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
+/** A mesh of the body as it is shown, in the light of the posed one. */
+export function bodyPart(shown: GlbBody, posed: GlbBody): Part {
   const count = shown.positions.length / 3;
   const grey = (value: number, width: number) => new Float32Array(width * count).fill(value);
   const geometry = new BufferGeometry();
@@ -28,20 +18,14 @@ export function bodyPart(shown: GlbBody, posed: GlbBody, texture: Texture): Part
     geometry.setAttribute(name, new BufferAttribute(values, width));
   add("position", shown.positions, 3);
   add("normal", shown.normals, 3);
-  add("posed", posed.positions, 3);
-  add("posedNormal", posed.normals, 3);
   add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
-  add("albedo", shown.albedo ?? grey(0.6, 1), 1);
   add("specularity", shown.specularity ?? grey(0, 1), 1);
-  add("lit", shown.lit ?? grey(1, 1), 1);
-  add("posedLit", posed.lit ?? grey(1, 1), 1);
-  add("shift", grey(0, 1), 1);
   add("mark", grey(0, 2), 2);
   geometry.setIndex(new BufferAttribute(shown.triangles, 1));
   geometry.computeBoundingBox();
   const box = geometry.boundingBox!;
   const centre = box.getCenter(new Vector3());
-  const material = surfaceMaterial(posed, texture);
+  const material = surfaceMaterial(posed);
   if (shown !== posed && posed.light) moveLight(material, posed, centre);
   return { mesh: new Mesh(geometry, material), centre, size: box.getSize(new Vector3()) };
 }

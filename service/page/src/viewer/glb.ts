@@ -15,8 +15,6 @@ export interface GlbLight {
   /** From the body's centre; 0 of a directional light. */
   readonly distance: number;
   readonly ambient: number;
-  /** Nine coefficients of what the surroundings send, in the file's axes; null of an even ambient light. */
-  readonly surroundings: readonly number[] | null;
   readonly exponent: number;
   /** By what vertex colours are to be multiplied to be albedo. */
   readonly colourScale: number;
@@ -27,10 +25,7 @@ export interface GlbBody {
   readonly normals: Float32Array;
   readonly triangles: Uint16Array | Uint32Array;
   readonly colours: Float32Array | null;
-  readonly albedo: Float32Array | null;
   readonly specularity: Float32Array | null;
-  /** Where the body's own shadow does not fall; null of light without known surroundings. */
-  readonly lit: Float32Array | null;
   /** Places in the texture, from its upper left corner. */
   readonly uv: Float32Array | null;
   readonly texture: Blob | null;
@@ -59,7 +54,6 @@ interface LightExtras {
   readonly specular_exponent: number;
   readonly colour_scale: number;
   readonly distance_m?: number;
-  readonly surroundings?: readonly number[];
 }
 
 const MAGIC = 0x46546c67;
@@ -104,9 +98,7 @@ export function readGlb(content: ArrayBuffer): GlbBody {
     normals: floats("NORMAL")!,
     triangles: array(primitive.indices) as Uint16Array | Uint32Array,
     colours: floats("COLOR_0"),
-    albedo: floats("_ALBEDO"),
     specularity: floats("_SPECULARITY"),
-    lit: floats("_LIT"),
     uv: floats("TEXCOORD_0"),
     texture: textureOf(document, content, binary),
     unlit: document.materials?.[0]?.extensions?.KHR_materials_unlit !== undefined,
@@ -140,13 +132,12 @@ function lightOf(document: Document): GlbLight | null {
   const light = document.extensions?.KHR_lights_punctual?.lights[0];
   const node = document.nodes.find((each) => each.name === "light");
   if (!light || !node) return null;
-  const { ambient, specular_exponent, colour_scale, distance_m, surroundings } = light.extras;
+  const { ambient, specular_exponent, colour_scale, distance_m } = light.extras;
   return {
     kind: light.type,
     vector: node.translation ?? turnedZ(node.rotation ?? [0, 0, 0, 1]),
     distance: distance_m ?? 0,
     ambient,
-    surroundings: surroundings ?? null,
     exponent: specular_exponent,
     colourScale: colour_scale,
   };

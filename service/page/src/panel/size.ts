@@ -1,4 +1,0 @@
-/** "720 × 960". */
-export function sizeOf({ width, height }: { readonly width: number; readonly height: number }): string {
-  return `${width} × ${height}`;
-}

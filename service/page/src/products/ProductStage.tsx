@@ -1,0 +1,28 @@
+// The body of a product, large, and the way back to the fit's own.
+import type { Product } from "../api/types";
+import { messages } from "../messages";
+import { Icon } from "../ui/Icon";
+import { DerivedCanvas } from "../viewer/DerivedCanvas";
+import { KINDS } from "./kinds";
+
+export function ProductStage({ product: { id, kind, links }, onBack }: { product: Product; onBack: () => void }) {
+  const { look, products: words } = messages;
+  const body = KINDS[kind].body!;
+  return (
+    <section class="look" aria-label={words.kinds[kind].label}>
+      <div class="look-bar">
+        <button class="button is-small" type="button" onClick={onBack}>
+          <Icon name="back" />
+          {words.back}
+        </button>
+        <b class="grow">{words.kinds[kind].label}</b>
+      </div>
+      <div class="look-room">
+        <div class="look-free">
+          <DerivedCanvas key={id} path={links.files[body.file]!} label={body.label} />
+        </div>
+        <p class="look-hint fine">{look.hint}</p>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,33 @@
+// How far a fit is to be trusted, as the service judges it.
+import type { FitResult, ViewResult } from "../api/types";
+import { wordFor } from "../messages/words";
+import { messages } from "../messages";
+import { answered } from "../ui/answered";
+
+export type Grade = "good" | "fair" | "poor";
+
+/** Poor by verdict or outcome, fair where a warning or a finding asks to look, else good. */
+export function gradeOf({ verdict, warnings, views }: Judged): Grade {
+  if (verdict !== "plausible" || views.some(({ outcome }) => outcome === "poor_fit")) return "poor";
+  const isDoubted = views.some((view) => view.outcome !== "converged" || view.findings.length + view.warnings.length > 0);
+  return isDoubted || warnings.length > 0 ? "fair" : "good";
+}
+
+type JudgedView = Pick<ViewResult, "outcome"> & { readonly findings: readonly unknown[]; readonly warnings: readonly unknown[] };
+type Judged = Pick<FitResult, "verdict"> & { readonly warnings: readonly unknown[]; readonly views: readonly JudgedView[] };
+
+/** Whether measurements of this body are to be shown as such. */
+export function isReliable(result: Judged): boolean {
+  return gradeOf(result) !== "poor";
+}
+
+export function headingOf({ verdict, views }: Pick<FitResult, "verdict"> & { readonly views: readonly Pick<ViewResult, "outcome">[] }): string {
+  const { result: words } = messages;
+  const isPoor = views.some(({ outcome }) => outcome === "poor_fit");
+  return wordFor(words.verdicts, verdict) ?? (isPoor ? words.poorFit : words.body);
+}
+
+/** What contradicts the body, and what to do; null where nothing does. */
+export function contradictionOf({ verdict, outcome_explanation: explained }: Pick<FitResult, "verdict" | "outcome_explanation">): string | null {
+  return verdict === "plausible" ? null : (answered("verdicts", verdict) ?? explained);
+}

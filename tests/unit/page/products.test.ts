@@ -1,0 +1,27 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { FIRST_WISHES, KINDS } from "../../../service/page/src/products/kinds";
+
+test("a request says only what its kind knows", () => {
+  const wishes = { ...FIRST_WISHES, size: 512 as const };
+  assert.deepEqual(KINDS.texture.request(wishes), { kind: "texture", colours: "picture", size: 512 });
+  assert.deepEqual(KINDS.animation.request({ ...wishes, named: "squat" }), { kind: "animation", motion: "squat" });
+  assert.deepEqual(KINDS.animation.request({ ...wishes, motion: new File([], "dance.bvh") }), { kind: "animation" });
+});
+
+test("a texture of one's own is sent along, and needed", () => {
+  const own = { ...FIRST_WISHES, colours: "own" as const };
+  assert.match(KINDS.texture.lacks!(own)!, /Choose a texture/);
+  assert.equal(KINDS.texture.part!({ ...FIRST_WISHES, texture: new File([], "skin.png") }), null);
+  const chosen = { ...own, texture: new File([], "skin.png") };
+  assert.equal(KINDS.texture.lacks!(chosen), null);
+  assert.equal(KINDS.texture.part!(chosen)!.name, "texture");
+  assert.deepEqual(KINDS.texture.request(chosen), { kind: "texture", colours: "own" });
+});
+
+test("a size needs a chart, which is sent as a file", async () => {
+  assert.match(KINDS.size.lacks!(FIRST_WISHES)!, /chart/);
+  const wishes = { ...FIRST_WISHES, chart: "size,hip_girth\nS,90-94\n" };
+  assert.equal(KINDS.size.lacks!(wishes), null);
+  assert.equal(await KINDS.size.part!(wishes)!.file.text(), wishes.chart);
+});
