@@ -44,7 +44,10 @@ _SAMPLES: Final = {
     "sample.jpg": "sample.jpg",
     "sample.json": "request.json",
     **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
-    **{name: name for name in ("front.jpg", "side.jpg", "measuring_tiles.jpg")},
+    **{
+        name: name
+        for name in ("front.jpg", "side.jpg", "front_and_side.json", "measuring_tiles.jpg")
+    },
 }
 """Sample pictures for users without one of their own, their clicks, and good and bad pictures to
 learn from: the file for each name."""

@@ -88,6 +88,4 @@ def test_body_fat_is_estimated(looking: Visitor):
     page = looking.page
     looking.choose("Body fat")
     page.get_by_role("button", name="Estimate it").click()
-    expect(card(looking, "composition")).to_contain_text(
-        "body_composition.csv", timeout=FIT_WITHIN_MS
-    )
+    expect(card(looking, "composition")).to_contain_text("composition.csv", timeout=FIT_WITHIN_MS)

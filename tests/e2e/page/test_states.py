@@ -1,6 +1,5 @@
 """What the page says of itself is so at the very moment it says it: other tests wait for it."""
 
-
 from tests.e2e.page.visitor import Visitor
 
 NOTE_SIZES = """() => {

@@ -33,21 +33,8 @@ export type NamedPose = Schemas["NamedPose"];
 export type TextureColours = Schemas["TextureColours"];
 export type TextureSize = NonNullable<Schemas["TextureOptions"]["size"]>;
 export type SizeResult = Schemas["SizeResult"];
-
-export type ProductKind = "texture" | "pose" | "animation" | "caricature" | "print" | "size" | "composition";
-
-export interface ProductRequest {
-  readonly kind: ProductKind;
-  readonly [option: string]: unknown;
-}
-
-export interface Product {
-  readonly id: string;
-  readonly kind: ProductKind;
-  readonly fit_id: string;
-  readonly state: JobState;
-  readonly progress: number;
-  readonly problem: Problem | null;
-  readonly result: { readonly kind: string } | null;
-  readonly links: { readonly self: string; readonly fit: string; readonly files: Readonly<Record<string, string>> };
-}
+export type CompositionResult = Schemas["CompositionResult"];
+export type ProductKind = Schemas["ProductKind"];
+export type Product = Schemas["Product"];
+export type ProductRequest = Schemas["ProductRequest"];
+export type ProductResult = NonNullable<Product["result"]>;

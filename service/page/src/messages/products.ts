@@ -61,5 +61,10 @@ export const products = {
     square: "A square picture. Make a texture first: its atlas.png says where each part of the body lies.",
     size: "Size",
   },
+  composition: {
+    bmi: "Body mass index",
+    fat: (percent: string, error: string | null) => (error === null ? `${percent} % fat` : `${percent} ± ${error} % fat`),
+    withheld: "not for this person",
+  },
   caricature: { strength: "Exaggeration", times: (factor: string) => `${factor} ×`, turned: "The caricature" },
 } as const;

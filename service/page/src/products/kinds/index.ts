@@ -2,6 +2,7 @@
 import type { ProductKind } from "../../api/types";
 import { FIRST_ANIMATION, animation } from "./animation";
 import { FIRST_CARICATURE, caricature } from "./caricature";
+import { composition } from "./composition";
 import { FIRST_POSE, pose } from "./pose";
 import { FIRST_SIZE, size } from "./size";
 import { FIRST_TEXTURE, texture } from "./texture";
@@ -19,5 +20,5 @@ export const KINDS: Readonly<Record<ProductKind, Kind<Wishes>>> = {
   texture,
   caricature,
   size,
-  composition: { request: () => ({ kind: "composition" }) },
+  composition,
 };

@@ -1,10 +1,10 @@
 // All that the page knows of a kind of product.
 import type { ComponentChildren, JSX } from "preact";
-import type { Product, ProductRequest } from "../../api/types";
+import type { ProductRequest, ProductResult } from "../../api/types";
 
 /** A file sent beside a request, by the name of its form part. */
 export interface Part {
-  readonly name: "bvh" | "texture" | "chart";
+  readonly name: "bvh" | "texture";
   readonly file: File;
 }
 
@@ -29,6 +29,6 @@ export interface Kind<Wishes = unknown> {
   readonly picture?: string;
   /** The body that can be turned on the stage, and what it is called there. */
   readonly body?: { readonly file: string; readonly label: string };
-  /** What there is to say of a result of this kind. */
-  readonly told?: (result: NonNullable<Product["result"]>) => ComponentChildren;
+  /** What there is to say of a result of this kind; nothing of any other. */
+  readonly told?: (result: ProductResult) => ComponentChildren;
 }

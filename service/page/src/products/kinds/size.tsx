@@ -16,11 +16,10 @@ const EXAMPLE = "size,chest_girth,waist_girth_navel,hip_girth\nS,84-88,68-72,90-
 export const FIRST_SIZE: SizeWishes = { chart: "" };
 
 export const size: Kind<SizeWishes> = {
-  request: () => ({ kind: "size" }),
-  part: ({ chart }) => ({ name: "chart", file: new File([chart], "chart.csv", { type: "text/csv" }) }),
+  request: ({ chart }) => ({ kind: "size", chart_csv: chart }),
   lacks: ({ chart }) => (chart.trim() === "" ? words.lacks : null),
   Options: ChartField,
-  told: (result) => <Sizes result={result as unknown as SizeResult} />,
+  told: (result) => result.kind === "size" && <Sizes result={result} />,
 };
 
 function ChartField({ wishes: { chart }, onWish }: OptionProps<SizeWishes>) {

@@ -1,1 +1,0 @@
-import{a as n,b as s}from"/page/chunk.OTD3EZO2.js";import{l as e}from"/page/chunk.2CIZEZMD.js";var i=["observation","initial_pose","segmentation","silhouette_and_edges","shading","measurement","export"];function m(t){return n(e.fit.terms,t)??s(t)}function p(t){let r=i.find(o=>o===t);return r?e.fit.stages[r].label:s(t)}export{i as a,m as b,p as c};
