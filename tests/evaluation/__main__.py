@@ -4,8 +4,8 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from fitter.vocabulary.choices import Clothing, Cues, OutlineKind
-from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
+from fitter.vocabulary.choices import Clothing, Cues
+from tests.evaluation.body_tables import bmi_lines
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.command_line import parser
 from tests.evaluation.foreign import MISSING, foreign_names
@@ -47,12 +47,8 @@ def _score(choice: Choice) -> None:
     run = Run(
         told=Told(
             mask=options.true_mask,
-            light=options.true_light,
             focal_length=options.known_focal,
-            pose=options.true_pose or options.true_place,
-            place=options.true_place,
             measurements=tuple(options.given or ()),
-            outline=None if options.outline is None else OutlineKind(options.outline),
             clothing=Clothing(options.clothing or Clothing.AUTO),
         ),
         pictures=options.page,
@@ -65,7 +61,7 @@ def _score(choice: Choice) -> None:
         scored += pair
     for title, part in _parts(scored):
         print(f"\n{title}: {_counts(part)}")
-        for lines in (summary_lines, trunk_lines, distance_lines, bmi_lines, worst_lines):
+        for lines in (summary_lines, bmi_lines, worst_lines):
             print("\n".join(lines(part)))
         print("\n".join(null_table([each.name for each in part])))
     if options.page is not None:
@@ -84,12 +80,7 @@ def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
 def _foreign(options: argparse.Namespace) -> list[str]:
     """The foreign pictures that are chosen, in a folder that may not be there."""
     half = None if options.half is None else Half(options.half)
-    wanted = (
-        options.set in (None, Series.FOREIGN.value)
-        or options.detector
-        or options.paper
-        or options.chain
-    )
+    wanted = options.set in (None, Series.FOREIGN.value) or options.detector or options.paper
     if wanted and not options.case and not foreign_names():
         print(MISSING, flush=True)
     if options.case:

@@ -1,16 +1,12 @@
-"""Where fitted bodies err, as text: along the trunk, in distance, by the people's build."""
+"""Errors by the people's build, as text."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from fitter.vocabulary.choices import Cues
-from tests.evaluation.joint_figures import PAIRS
 from tests.evaluation.scoring import Scored
 from tests.evaluation.table import MEASUREMENTS
-from tests.evaluation.trunk_sections import LEVELS
-
-CENTIMETRES = 100.0
 
 BMI_CLASSES: Mapping[str, tuple[float, float]] = {
     "< 18.5": (0.0, 18.5),
@@ -40,50 +36,4 @@ def bmi_lines(scored: Sequence[Scored]) -> list[str]:
                     errors = np.array([each.errors[key] for each in these])
                     line += f"{f'{np.abs(errors).mean():.2f} ({errors.mean():+.2f})':>16s}"
                 lines.append(line)
-    return lines
-
-
-def trunk_lines(scored: Sequence[Scored]) -> list[str]:
-    """Fitted minus true breadths and depths by height, centimetres: bias and mean absolute."""
-    heading = "trunk [cm], by height over the floor as a share of the body's"
-    lines = [heading, f"{'fitted minus true':26s}" + "".join(f"{each:8.2f}" for each in LEVELS)]
-    for cues in Cues:
-        trunks = [each.trunk for each in scored if each.cues is cues]
-        if not trunks:
-            continue
-        for name, errors in (
-            ("breadth", np.array([each.breadth_m for each in trunks])),
-            ("depth", np.array([each.depth_m for each in trunks])),
-        ):
-            bias = CENTIMETRES * errors.mean(axis=0)
-            away = CENTIMETRES * np.abs(errors).mean(axis=0)
-            lines += [
-                f"{f'{cues} {name} bias':26s}" + "".join(f"{each:+8.2f}" for each in bias),
-                f"{f'{cues} {name} mean absolute':26s}" + "".join(f"{each:8.2f}" for each in away),
-            ]
-    return lines
-
-
-def distance_lines(scored: Sequence[Scored]) -> list[str]:
-    """Fitted minus true distance from the camera of pairs of joints, centimetres.
-
-    Where the focal length is known, because a wrong one is most of the error elsewhere.
-    """
-    known = [each for each in scored if each.focal_length_known]
-    of = f"{len({each.name for each in known})} of {len({each.name for each in scored})} pictures"
-    lines = [
-        f"distance [cm] in {of} whose focal length is known",
-        f"{'fitted minus true':26s}" + "".join(f"{pair:>11s}" for pair in PAIRS),
-    ]
-    for cues in Cues:
-        these = [each.distances_m for each in known if each.cues is cues]
-        if not these:
-            continue
-        errors = CENTIMETRES * np.array([[each[pair] for pair in PAIRS] for each in these])
-        for name, values, sign in (
-            ("bias", errors.mean(axis=0), "+"),
-            ("standard deviation", errors.std(axis=0), ""),
-            ("mean absolute", np.abs(errors).mean(axis=0), ""),
-        ):
-            lines.append(f"{f'{cues} {name}':26s}" + "".join(f"{v:{sign}11.2f}" for v in values))
     return lines

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from fitter.vocabulary.choices import Clothing, OutlineKind
+from fitter.vocabulary.choices import Clothing
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_names
 from tests.evaluation.scene import Half, Series
@@ -51,32 +51,14 @@ def _add_told(to: argparse.ArgumentParser) -> None:
         help="give the person's true mask: what the errors would be without segmentation",
     )
     to.add_argument(
-        "--outline",
-        choices=[kind.value for kind in OutlineKind],
-        help="what the contour is to meet (default: as every fit)",
-    )
-    to.add_argument(
         "--clothing",
         choices=[each.value for each in Clothing],
         help="how clothes are said to lie (default: auto; of clothed and dressed people each)",
     )
     to.add_argument(
-        "--true-light", action="store_true", help="begin the search for the light at the truth"
-    )
-    to.add_argument(
         "--known-focal",
         action="store_true",
         help="give the focal length in pixels, where it is in the file or missing too",
-    )
-    to.add_argument(
-        "--true-pose",
-        action="store_true",
-        help="hold the pose at the truth, within half a degree a joint",
-    )
-    to.add_argument(
-        "--true-place",
-        action="store_true",
-        help="hold the root joint at the truth too; say --known-focal with it",
     )
     to.add_argument(
         "--given",
@@ -88,21 +70,11 @@ def _add_told(to: argparse.ArgumentParser) -> None:
 
 def _add_modes(to: argparse.ArgumentParser) -> None:
     for name, what in (
-        ("--shape-limit", "fit nothing: print what the shape space's own coarseness costs"),
         (
             "--outline-limit",
             "fit nothing: print how well exactly known outlines foretell measurements",
         ),
-        (
-            "--several",
-            "combine one, two and three pictures of each person: how measurements tighten",
-        ),
-        (
-            "--chain",
-            "from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
-        ),
         ("--paper", "fit by the paper's own method and by ours, on the same pictures"),
-        ("--moved-points", "fit with the points 2 cm away from where they were, in several ways"),
         (
             "--detector",
             "fit with none, each and all of what the detector tells, foreign pictures too",
@@ -128,7 +100,6 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--scan",
             "measure people from the front, from the side and from both, foreign ones too",
         ),
-        ("--strangers", "scan pictures of one person and of two: how often that is told"),
         (
             "--again",
             "fit pictures changed by what nobody sees: spread of measurements, and errors stated",

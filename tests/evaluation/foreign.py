@@ -18,7 +18,6 @@ from fitter.request import Click, FitRequest
 from fitter.vocabulary.choices import Gender, LightKind
 from tests.evaluation.joint_figures import MOVED_PARTS, part_of_joint
 from tests.evaluation.landmark_points import packaged_model
-from tests.evaluation.mesh_fit import PosedMesh
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.suite import VISIBLE
 from tests.evaluation.true_picture import TruePicture
@@ -85,18 +84,6 @@ def foreign_picture(name: str, folder: Path = FOLDER) -> TruePicture:
         joints=joints,
         truth=body,
     )
-
-
-def foreign_mesh(name: str, folder: Path = FOLDER) -> PosedMesh:
-    """The posed body of a picture."""
-    picture = foreign_picture(name, folder)
-    with np.load(folder / name / "bodies.npz", allow_pickle=False) as bodies:
-        return PosedMesh(
-            gender=picture.request.person.gender,
-            vertices=bodies["posed_camera_m"].astype(np.float64),
-            triangles=bodies["faces"],
-            joints=picture.joints,
-        )
 
 
 def _request(image: bytes, options: Mapping[str, Any]) -> FitRequest:

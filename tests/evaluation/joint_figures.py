@@ -1,4 +1,4 @@
-"""Errors of joints in the camera frame: among themselves, and in their distance from the camera."""
+"""Errors of joints in the camera frame, among themselves."""
 
 from collections.abc import Mapping
 
@@ -12,11 +12,6 @@ MOVED_PARTS: Mapping[str, str] = {
     "ankle": "foot",
 }  # fmt: skip
 """The part that turns about each joint."""
-
-PAIRS: Mapping[str, str] = {
-    "hips": "hip", "shoulders": "shoulder", "knees": "knee", "ankles": "ankle",
-}  # fmt: skip
-"""Left and right joints whose mean distance from the camera is compared."""
 
 Joints = Float[np.ndarray, "p 3"]
 """Camera frame, metres; NaN where the truth has none."""
@@ -39,15 +34,6 @@ def joint_error_mm(found: Joints, true: Joints) -> float:
     middle = _hips_middle if np.isnan(true[_ROOT]).any() else _root
     difference = (found - middle(found)) - (true - middle(true))
     return _MILLIMETRES * float(np.nanmean(np.linalg.norm(difference, axis=1)))
-
-
-def distance_errors_m(found: Joints, true: Joints) -> dict[str, float]:
-    """Found minus true distance from the camera of each pair's middle, metres."""
-    return {
-        pair: float(np.mean(found[sides, 2] - true[sides, 2]))
-        for pair, joint in PAIRS.items()
-        for sides in [[part_of_joint(f"{side}_{joint}") for side in ("left", "right")]]
-    }
 
 
 def _root(joints: Joints) -> Float[np.ndarray, "3"]:

@@ -19,8 +19,6 @@ from tests.evaluation.again import (
 from tests.evaluation.capture_costs import cost_lines, costs_of, people_of
 from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
-from tests.evaluation.chain import Link, chain_of
-from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.clothes_check import clothed_pictures, clothes_lines, clothes_said
 from tests.evaluation.clothing_table import (
     case_heading,
@@ -37,14 +35,11 @@ from tests.evaluation.dressed import MISSING, dressed_names
 from tests.evaluation.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
-from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
-from tests.evaluation.moved_points import moved_fits, moved_lines
 from tests.evaluation.nonsense import nonsense
 from tests.evaluation.nulls import null_rows, null_table
-from tests.evaluation.outline_limit import outline_limit
+from tests.evaluation.outline_limit import outline_limit, outline_lines
 from tests.evaluation.painted_clothes import painted_names
 from tests.evaluation.paper_method import method_errors, method_lines
-from tests.evaluation.people import load_person
 from tests.evaluation.runs import of_each
 from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
 from tests.evaluation.scans import (
@@ -57,13 +52,9 @@ from tests.evaluation.scans import (
     scanned,
 )
 from tests.evaluation.scene import Case, Half, Series
-from tests.evaluation.several import several_pictures
-from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.spoilt import KINDS, asked_spoilt, measured
 from tests.evaluation.spoilt_table import spoilt_heading, spoilt_lines
 from tests.evaluation.stance_kinds import Kind
-from tests.evaluation.strangers import agreement_of, asked_of, stranger_lines
-from tests.evaluation.table import MEASUREMENTS
 from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
 
 EVERY = 2
@@ -102,36 +93,9 @@ class Choice:
         return [case for case in self.cases if case.series is Series.PEOPLE]
 
 
-def shape_limits(choice: Choice) -> None:
-    """What the shape space leaves of each person."""
-    people = {case.person: PEOPLE[case.person] for case in choice.cases}
-    limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
-    _print(limit_lines(limits))
-
-
 def outline_limits(choice: Choice) -> None:
     """What exactly known outlines leave."""
     _print(outline_lines({each.value: outline_limit(each) for each in Gender}))
-
-
-def several(choice: Choice) -> None:
-    """Every choice of one, two, three pictures of each person."""
-    names = [key for _, key, _ in MEASUREMENTS]
-    for half, cases in choice.cases_by_half.items():
-        people = [case for case in cases if case.series is Series.PEOPLE]
-        if people:
-            _print(several_lines(list(several_pictures(people, names))), f"{half.value} half")
-
-
-def chain(choice: Choice) -> None:
-    """From the true mesh to a fit that is told nothing."""
-    links: list[Link] = []
-    for of_picture in of_each(chain_of, choice.foreign, choice.jobs):
-        lines = chain_case_lines(of_picture)
-        print("\n".join(lines[1:] if links else lines), flush=True)
-        links += of_picture
-    if links:
-        _print(chain_lines(links))
 
 
 def detector(choice: Choice) -> None:
@@ -150,13 +114,6 @@ def paper(choice: Choice) -> None:
         if names:
             found = of_each(method_errors, names, choice.jobs)
             _print(method_lines([each for several in found for each in several]), title)
-
-
-def moved_points(choice: Choice) -> None:
-    """With points that are not where they should be."""
-    names = [*(case.name for case in choice.cases), *choice.foreign]
-    fits = of_each(moved_fits, names, choice.jobs)
-    _print(moved_lines([each for several in fits for each in several]))
 
 
 def checks(choice: Choice) -> None:
@@ -233,13 +190,6 @@ def repeat(choice: Choice) -> None:
         _print(repeat_lines(_scans(repeated_pairs(half), choice.jobs)), f"{half.value} half")
 
 
-def strangers(choice: Choice) -> None:
-    """Pictures of one person and of two, and how often a scan tells them apart."""
-    for half in choice.halves:
-        found = of_each(agreement_of, asked_of(half), choice.jobs)
-        _print(stranger_lines(list(found)), f"{half.value} half")
-
-
 def seen_again(choice: Choice) -> None:
     """The same pictures again, changed by what nobody sees."""
     half = None if choice.options.half is None else Half(choice.options.half)
@@ -295,13 +245,9 @@ def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
 Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
-    "shape_limit": shape_limits,
     "outline_limit": outline_limits,
-    "several": several,
-    "chain": chain,
     "detector": detector,
     "paper": paper,
-    "moved_points": moved_points,
     "checks": checks,
     "spoilt_scans": spoilt_scans,
     "spoilt": spoilt,
@@ -309,7 +255,6 @@ MODES: Mapping[str, Mode] = {
     "nonsense": verdicts,
     "repeat": repeat,
     "scan": scan,
-    "strangers": strangers,
     "again": seen_again,
 }
 

@@ -19,6 +19,7 @@ from fitter.training.build import read_materials, solved_population
 from fitter.training.report.header_figures import measured_bodies
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
+from tests.evaluation.table import MEASUREMENTS
 
 SUBJECTS, HELD_OUT = 1300, 200
 """Of the packaged population; the first were never trained on."""
@@ -89,3 +90,14 @@ def _on_arms(model: BodyModel) -> Bool[np.ndarray, " m"]:
         if "arm" in name or "hand" in name:
             marked[model.triangles[model.part_of_triangle == part].ravel()] = True
     return marked
+
+
+def outline_lines(limits: Mapping[str, Mapping[str, Mapping[str, float]]]) -> list[str]:
+    """What exactly known outlines leave of each gender's measurements, mean absolute errors."""
+    columns = "".join(f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS)
+    lines = [f"{'outline from':28s}{columns}"]
+    for gender, views in limits.items():
+        for view, errors in views.items():
+            values = "".join(f"{errors[key]:11.2f}" for _, key, _ in MEASUREMENTS)
+            lines.append(f"{f'{view}, {gender}':28s}{values}")
+    return lines

@@ -2,7 +2,7 @@
 
 import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -10,9 +10,7 @@ from typing import TypeVar
 from fitter.vocabulary.choices import Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.dressed import dressed_names, dressed_picture
-from tests.evaluation.foreign import foreign_mesh, foreign_picture
-from tests.evaluation.held_pose import HeldBody, held_body_of
-from tests.evaluation.mesh_fit import MeshFit, fit_mesh
+from tests.evaluation.foreign import foreign_picture
 from tests.evaluation.painted_clothes import PREFIX, painted_picture
 from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.sheets import write_pictures
@@ -40,22 +38,6 @@ def picture_of(name: str) -> TruePicture:
     return dressed_picture(name) if name in dressed_names() else foreign_picture(name)
 
 
-def held_body(name: str, told: Told) -> HeldBody | None:
-    """What is held of a picture's true pose and place, if anything.
-
-    Of a foreign body it is that of our own on its mesh.
-    """
-    if not told.pose:
-        return None
-    held = held_body_of(CASES[name]) if name in CASES else held_on(fit_mesh(foreign_mesh(name)))
-    return replace(held, place_held=told.place)
-
-
-def held_on(fitted: MeshFit) -> HeldBody:
-    """Pose and place of our body on a mesh."""
-    return HeldBody(pose=fitted.parameters.pose, place=fitted.parameters.translation)
-
-
 def score_all(names: Sequence[str], run: Run, *, jobs: int) -> Iterator[list[Scored]]:
     """SE and SES of each picture, in order; ``jobs`` processes, each with whole pictures."""
     return of_each(partial(_score_both, run), names, jobs)
@@ -72,8 +54,7 @@ def of_each(task: Callable[[Item], Found], items: Sequence[Item], jobs: int) -> 
 
 def _score_both(run: Run, name: str) -> list[Scored]:
     picture = picture_of(name)
-    held = held_body(name, run.told)
-    fits = [fit_picture(picture, cues, run.told, held=held) for cues in Cues]
+    fits = [fit_picture(picture, cues, run.told) for cues in Cues]
     if run.pictures is not None:
         write_pictures(run.pictures, fits)
     return [score(fitted) for fitted in fits]

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,14 +15,11 @@ from fitter.render.rasterizer import render
 from fitter.render.reflectance import direction_to_light
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues
-from fitter.vocabulary.outcomes import FocalLengthSource
-from tests.evaluation.held_pose import HeldBody, held_at
-from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm
+from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.true_picture import Told, TruePicture, told_request
-from tests.evaluation.trunk_sections import TrunkSections, trunk_sections
 from tests.evaluation.truth import TrueBody
 from tests.one_picture import changed
 
@@ -70,12 +66,6 @@ class Scored:
         Angle between found and true direction to the light; None without shading.
     wrong_limbs
         Limbs that slant toward the camera instead of away from it, or the other way.
-    focal_length_known
-        Whether the request or the file told the focal length, without which distances mean little.
-    distances_m
-        Found minus true distance from the camera, by pair of joints, metres.
-    trunk
-        Found minus true breadths and depths of the trunk at rest.
     """
 
     name: str
@@ -93,9 +83,6 @@ class Scored:
     mask_overlap: float
     light_degrees: float | None
     wrong_limbs: tuple[str, ...]
-    focal_length_known: bool
-    distances_m: Mapping[str, float]
-    trunk: TrunkSections
     seconds: float
 
     @property
@@ -104,16 +91,12 @@ class Scored:
         return self.overlap < LEAST_OVERLAP or bool(self.wrong_limbs)
 
 
-def fit_picture(
-    picture: TruePicture, cues: Cues, told: Told, *, held: HeldBody | None = None
-) -> Fitted:
-    """Fit one picture with some cues; ``held`` is what is held of the body's pose and place."""
+def fit_picture(picture: TruePicture, cues: Cues, told: Told) -> Fitted:
+    """Fit one picture with some cues."""
     request = changed(told_request(picture, told), cues=cues)
-    with nullcontext() if held is None else held_at(held):
-        started = time.perf_counter()
-        result = fit(request)
-        seconds = time.perf_counter() - started
-    return Fitted(picture=picture, cues=cues, result=result, seconds=seconds)
+    started = time.perf_counter()
+    result = fit(request)
+    return Fitted(picture=picture, cues=cues, result=result, seconds=time.perf_counter() - started)
 
 
 def score(fitted: Fitted) -> Scored:
@@ -146,10 +129,6 @@ def score(fitted: Fitted) -> Scored:
         mask_overlap=overlap(cut, picture.person_mask),
         light_degrees=light_error(result.person.light, picture.light),
         wrong_limbs=wrong_limbs(joints, picture.joints),
-        focal_length_known=result.views[0].focal_length_source is not FocalLengthSource.ASSUMED,
-        distances_m=distance_errors_m(joints, picture.joints),
-        trunk=trunk_sections(result.canonical_vertices, model.triangles)
-        - trunk_sections(truth.canonical, truth.triangles),
         seconds=fitted.seconds,
     )
 

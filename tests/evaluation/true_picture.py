@@ -7,8 +7,8 @@ from jaxtyping import Float
 
 from fitter.arrays import Mask
 from fitter.parameters import Light
-from fitter.request import FitRequest, KnownMeasurement, LightGuess
-from fitter.vocabulary.choices import Clothing, OutlineKind
+from fitter.request import FitRequest, KnownMeasurement
+from fitter.vocabulary.choices import Clothing
 from tests.evaluation.files import Labels, encoded_mask
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.truth import TrueBody
@@ -21,20 +21,14 @@ class Told:
 
     ``proposed`` is told less: no points, so that the detector proposes them.
 
-    ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
-    begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held,
-    and ``place`` with it;
-    ``measurements`` are named and given as the caller of the service may give them; ``outline`` is
-    what the contour is to meet, in place of the default; ``clothing`` how clothes are said to lie.
+    ``mask`` the person as seen, in place of segmentation; ``focal_length`` in pixels, where the
+    picture does not give it; ``measurements`` are named and given as the caller of the service may
+    give them; ``clothing`` how clothes are said to lie.
     """
 
     mask: bool = False
-    light: bool = False
     focal_length: bool = False
-    pose: bool = False
-    place: bool = False
     measurements: tuple[str, ...] = ()
-    outline: OutlineKind | None = None
     clothing: Clothing = Clothing.AUTO
     proposed: bool = False
 
@@ -86,21 +80,10 @@ def told_request(picture: TruePicture, told: Told) -> FitRequest:
         request = changed(request, clicks={}, complete_clicks=True)
     if told.mask:
         request = changed(request, mask=encoded_mask(picture.person_mask))
-    if told.outline is not None:
-        request = changed(request, outline=told.outline)
     if told.focal_length:
         request = changed(request, focal_length_px=picture.focal_length_px, focal_length_35mm=None)
     if told.measurements:
         true = picture.truth.measurements
         known = {name: KnownMeasurement(value=true[name]) for name in told.measurements}
         request = changed(request, measurements=known)
-    light = picture.light
-    if told.light and light is not None:
-        guess = LightGuess(
-            kind=light.kind,
-            azimuth=light.azimuth,
-            elevation=light.elevation,
-            distance=light.distance,
-        )
-        request = changed(request, light=guess)
     return request

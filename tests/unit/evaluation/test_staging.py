@@ -5,7 +5,6 @@ from fitter.render.reflectance import light_position
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.clicks import CLICK_DEVIATION_PX, noisy_clicks, rendering, true_points
 from tests.evaluation.people import load_person, rig_of_people
-from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.staging import Staged, lamp_place, root_joint, stage
 from tests.evaluation.truth import true_body, true_joints, true_light
 from tests.unit.training.makehuman_data import needs_makehuman
@@ -77,9 +76,3 @@ def test_an_ear_on_the_far_side_of_the_head_is_not_clicked():
     turned = _staged("woman_old_middling_turned")
     clicks = noisy_clicks(turned, rendering(turned), np.random.default_rng(0))
     assert "left_ear" not in clicks or "right_ear" not in clicks
-
-
-def test_what_the_shape_space_leaves_is_a_few_millimetres(demo):
-    limit = shape_limit(demo.person)
-    assert 0.5 < limit.rest_mm < 8.0
-    assert abs(limit.errors["stature"]) < 1.5

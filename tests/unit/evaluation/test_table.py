@@ -1,13 +1,11 @@
 import numpy as np
 
 from fitter.vocabulary.choices import Cues
-from tests.evaluation.body_tables import bmi_class, bmi_lines, distance_lines, trunk_lines
+from tests.evaluation.body_tables import bmi_class, bmi_lines
 from tests.evaluation.cases import CASES, DEMO
-from tests.evaluation.joint_figures import PAIRS
 from tests.evaluation.scene import Case, Half
 from tests.evaluation.scoring import Scored, resampled
 from tests.evaluation.table import MEASUREMENTS, case_lines, cue_lines, summary_lines, worst_lines
-from tests.evaluation.trunk_sections import LEVELS, TrunkSections
 
 
 def scored_picture(
@@ -19,7 +17,7 @@ def scored_picture(
     bmi: float = 22.0,
     wrong_limbs: tuple[str, ...] = (),
 ) -> Scored:
-    """Every figure errs alike; distances and depths in centimetres, breadths not at all."""
+    """Every figure errs alike."""
     return Scored(
         name=case.name,
         person=person or case.person,
@@ -36,11 +34,6 @@ def scored_picture(
         mask_overlap=0.97,
         light_degrees=None if cues is Cues.SE else 12.0,
         wrong_limbs=wrong_limbs,
-        focal_length_known=True,
-        distances_m=dict.fromkeys(PAIRS, error / 100.0),
-        trunk=TrunkSections(
-            breadth_m=np.zeros(len(LEVELS)), depth_m=np.full(len(LEVELS), error / 100.0)
-        ),
         seconds=1.0,
     )
 
@@ -106,17 +99,6 @@ def test_errors_are_summed_up_by_class_of_body_mass_index():
     _, slim, heavy = bmi_lines(scored)
     assert slim.split()[:5] == ["18.5-25", "SES", "2", "2.00", "(-1.00)"]
     assert heavy.split()[:6] == [">=", "35", "SES", "1", "5.00", "(+5.00)"]
-
-
-def test_bias_stands_beside_the_absolute_error_of_trunk_and_distance():
-    scored = [scored_picture(Cues.SES, -3.0), scored_picture(Cues.SES, 1.0)]
-    trunk = {line[:26].strip(): line[26:].split() for line in trunk_lines(scored)[1:]}
-    assert trunk["SES depth bias"] == ["-1.00"] * len(LEVELS)
-    assert trunk["SES depth mean absolute"] == ["2.00"] * len(LEVELS)
-    assert trunk["SES breadth mean absolute"] == ["0.00"] * len(LEVELS)
-    distance = {line[:26].strip(): line[26:].split() for line in distance_lines(scored)[1:]}
-    assert distance["SES bias"] == ["-1.00"] * len(PAIRS)
-    assert distance["SES standard deviation"] == ["2.00"] * len(PAIRS)
 
 
 def test_one_kind_of_fit_alone_can_be_summed_up():

@@ -1,10 +1,10 @@
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import numpy as np
 
 from fitter.parameters import Light
 from fitter.request import KnownMeasurement
-from fitter.vocabulary.choices import Clothing, Gender, LightKind, OutlineKind
+from fitter.vocabulary.choices import Clothing, Gender, LightKind
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.true_picture import Told, TruePicture, told_request
 from tests.evaluation.truth import TrueBody
@@ -55,16 +55,11 @@ def test_what_is_given_are_true_measurements():
     assert asked.person.measurements == {"weight": KnownMeasurement(value=81.0)}
 
 
-def test_mask_outline_clothing_and_light_are_told():
-    told = Told(mask=True, outline=OutlineKind.GRABCUT, clothing=Clothing.LOOSE, light=True)
-    asked = told_request(PICTURE, told)
+def test_mask_and_clothing_are_told():
+    asked = told_request(PICTURE, Told(mask=True, clothing=Clothing.LOOSE))
     (view,) = asked.views
     assert view.mask is not None
-    assert (asked.choices.outline, view.clothing) == (OutlineKind.GRABCUT, Clothing.LOOSE)
-    assert (view.light.azimuth, view.light.distance) == (0.5, 2.0)
-    unlit = replace(PICTURE, light=None)
-    (unlit_view,) = told_request(unlit, Told(light=True)).views
-    assert unlit_view.light == PICTURE.request.views[0].light
+    assert view.clothing is Clothing.LOOSE
 
 
 def test_the_index_of_body_mass_is_of_the_true_body():
