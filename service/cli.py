@@ -161,7 +161,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     demo.set_defaults(command=_demo)
 
-    openapi = commands.add_parser("openapi", help="print the OpenAPI document")
+    # For the build: not listed.
+    openapi = commands.add_parser("openapi", description="Print the OpenAPI document.")
     openapi.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
     openapi.set_defaults(command=_openapi)
     return parser

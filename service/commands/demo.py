@@ -10,12 +10,11 @@ from pathlib import Path
 from typing import IO, Final
 
 import httpx
-from rich.console import Console
 
 from api_schemas.jobs import EventData, EventKind, Fit, JobState
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.results import FitResult
-from service.commands.terminal import print_problem, print_result, stage_bars
+from service.commands.terminal import Stages, print_problem, print_result
 from service.demo_data.sample import Sample, load_sample
 from service.process.supervisor import PYTHON
 
@@ -38,7 +37,6 @@ def run_demo(
     serve_command: Sequence[str] = SERVE_COMMAND,
 ) -> int:
     """Start a service, post the sample, follow it, print and keep what comes; return the status."""
-    console = Console()
     started = time.monotonic()
     sample = sample or load_sample()
     output.mkdir(parents=True, exist_ok=True)
@@ -47,22 +45,18 @@ def run_demo(
         (output / "service.log").open("w") as log,
         running_service(serve_command, Path(data_dir), log) as client,
     ):
-        console.print(
-            f"The service listens on {client.base_url} ({time.monotonic() - started:.1f} s).",
-            highlight=False,
-        )
+        print(f"The service listens on {client.base_url} ({time.monotonic() - started:.1f} s).")
         accepted = _submit(client, sample)
-        ended = _follow(client, accepted, console)
+        ended = _follow(client, accepted)
         if ended.problem is not None or ended.state is not JobState.SUCCEEDED:
-            _tell_failure(console, ended)
+            _tell_failure(ended)
             return 1
         result = _keep_files(client, ended, output)
-    print_result(console, result, truth=sample.truth)
-    console.print(
+    print_result(result, truth=sample.truth)
+    print(
         f"{time.monotonic() - started:.1f} s from start to result. The pictures (overlay.png, "
         "segmentation.png, albedo.png, shading.png ...) and the posed body lie in "
-        f"{output}/views/0, the body (body_canonical.glb) and result.json in {output}.",
-        highlight=False,
+        f"{output}/views/0, the body (body_canonical.glb) and result.json in {output}."
     )
     return 0
 
@@ -117,15 +111,11 @@ def _submit(client: httpx.Client, sample: Sample) -> Fit:
     return Fit.model_validate_json(response.content)
 
 
-def _follow(client: httpx.Client, fit: Fit, console: Console) -> Fit:
-    with (
-        stage_bars(console) as bars,
-        client.stream("GET", fit.links.events, timeout=None) as response,
-    ):
-        for kind, data in _events(response):
-            bars.show(data.stage, data.progress)
-            if kind is EventKind.END and data.state is JobState.SUCCEEDED:
-                bars.finish()
+def _follow(client: httpx.Client, fit: Fit) -> Fit:
+    stages = Stages()
+    with client.stream("GET", fit.links.events, timeout=None) as response:
+        for _, data in _events(response):
+            stages.show(data.stage, data.progress)
     return Fit.model_validate_json(client.get(fit.links.self).content)
 
 
@@ -149,7 +139,7 @@ def _keep_files(client: httpx.Client, fit: Fit, output: Path) -> FitResult:
     return FitResult.model_validate_json(client.get(fit.links.result).content)
 
 
-def _tell_failure(console: Console, fit: Fit) -> None:
-    console.print(f"The fit {fit.state}.")
+def _tell_failure(fit: Fit) -> None:
+    print(f"The fit {fit.state}.")
     if fit.problem is not None:
-        print_problem(console, fit.problem)
+        print_problem(fit.problem)

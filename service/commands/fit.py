@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeVar
 
-from rich.console import Console
-
 from api_schemas.fit import FitRequest
 from api_schemas.problems import field_problem
 from fitter.errors import ModelFileError
-from service.commands.terminal import print_problem, print_result, stage_bars
+from service.commands.terminal import Stages, print_problem, print_result
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.process.caches import settle_folders
@@ -53,22 +51,21 @@ class FitArguments:
 
 def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     """Fit, write all files to the output folder, print the measurements; return the exit status."""
-    console = Console()
-    output = told(console, lambda: _fit(console, arguments, pipeline=pipeline))
+    output = told(lambda: _fit(arguments, pipeline=pipeline))
     if output is None:
         return UNUSABLE_INPUT
-    _write_result(console, output, arguments.output, formats=arguments.formats)
+    _write_result(output, arguments.output, formats=arguments.formats)
     return 0
 
 
-def _fit(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
+def _fit(arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
     asked = read_request(arguments.request)
     masks = [mask.read_bytes() for mask in arguments.masks] or [None] * len(arguments.pictures)
     pictures = [
         SentPicture(picture.read_bytes(), mask)
         for picture, mask in zip(arguments.pictures, masks, strict=True)
     ]
-    return fitted(console, asked, pictures, pipeline=pipeline)
+    return fitted(asked, pictures, pipeline=pipeline)
 
 
 def read_request(file: Path) -> FitRequest:
@@ -82,23 +79,22 @@ def read_request(file: Path) -> FitRequest:
     return parsed(FitRequest, file.read_bytes(), whole=file.name, called=file.name)
 
 
-def told(console: Console, work: Callable[[], Made]) -> Made | None:
+def told(work: Callable[[], Made]) -> Made | None:
     """Do the work; where the input is at fault, print that and return None."""
     try:
         return work()
     except ModelFileError as error:
-        console.print(f"[bold red]The body model cannot be used.[/] {error}", highlight=False)
+        print(f"The body model cannot be used. {error}")
     except OSError as error:
-        console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
+        print(f"{error.strerror}: {error.filename}")
     except RefusedError as error:
-        print_problem(console, error.problem)
+        print_problem(error.problem)
     except UnusableInputError as error:
-        print_problem(console, field_problem("unusable-input", error.error))
+        print_problem(field_problem("unusable-input", error.error))
     return None
 
 
 def fitted(
-    console: Console,
     asked: FitRequest,
     pictures: Sequence[SentPicture[bytes]],
     *,
@@ -115,28 +111,24 @@ def fitted(
     settings = Settings()
     checked = check_submission(asked, pictures, max_pixels=settings.max_pixels)
     check_detector(checked.request, settings.detector_dir)
-    with stage_bars(console) as bars:
-        output = load_pipeline(pipeline).run(
-            PipelineInput(
-                request=checked.request,
-                pictures=tuple(pictures),
-                max_pixels=settings.max_pixels,
-                models=settings.models_dir,
-                detector=settings.detector_dir,
-            ),
-            lambda report: bars.show(_stage(report), report.progress),
-        )
-        bars.finish()
-    return output
+    stages = Stages()
+    return load_pipeline(pipeline).run(
+        PipelineInput(
+            request=checked.request,
+            pictures=tuple(pictures),
+            max_pixels=settings.max_pixels,
+            models=settings.models_dir,
+            detector=settings.detector_dir,
+        ),
+        lambda report: stages.show(_stage(report), report.progress),
+    )
 
 
 def _stage(report: Report) -> str:
     return report.stage if report.view is None else f"view {report.view}: {report.stage}"
 
 
-def _write_result(
-    console: Console, output: PipelineOutput, folder: Path, *, formats: Sequence[str]
-) -> None:
+def _write_result(output: PipelineOutput, folder: Path, *, formats: Sequence[str]) -> None:
     """Write all files, meshes in these formats too, and the table; and print the result."""
     documents = with_result_document(output.result, output.files)
     files = documents | _in_formats(documents, formats)
@@ -145,8 +137,8 @@ def _write_result(
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
-    print_result(console, output.result)
-    console.print(f"{len(files)} files lie in {folder}.", highlight=False)
+    print_result(output.result)
+    print(f"{len(files)} files lie in {folder}.")
 
 
 def _in_formats(files: Mapping[str, bytes], formats: Sequence[str]) -> dict[str, bytes]:

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from rich.console import Console
 
 from api_schemas.fit import FitRequest
 from fitter import request as fitter_request
@@ -45,13 +44,12 @@ class PaperArguments:
 
 def draw_paper(arguments: PaperArguments, settings: Settings) -> int:
     """Draw all figures into the output folder, with a page of them; return the exit status."""
-    console = Console()
-    drawn = told(console, lambda: _drawn(arguments, settings, console))
+    drawn = told(lambda: _drawn(arguments, settings))
     if drawn is None:
         return UNUSABLE_INPUT
     (arguments.output / "index.html").write_text(index_html(drawn))
     (arguments.output / "table_1.csv").write_text(table_csv((*drawn.tables, PRINTED_TABLE)))
-    console.print(f"{arguments.output / 'index.html'} shows them all.", highlight=False)
+    print(f"{arguments.output / 'index.html'} shows them all.")
     return 0
 
 
@@ -79,7 +77,7 @@ def packaged_pictures(settings: Settings) -> Pictures:
     )
 
 
-def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> Reproduction:
+def _drawn(arguments: PaperArguments, settings: Settings) -> Reproduction:
     settle_folders()
     pictures = packaged_pictures(settings)
     given = {
@@ -94,7 +92,7 @@ def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> R
     def keep(figure: Figure) -> None:
         path = arguments.output / f"{figure.name}.png"
         path.write_bytes(png(figure.picture))
-        console.print(f"{path}: {figure.title}", highlight=False)
+        print(f"{path}: {figure.title}")
 
     try:
         if arguments.motion is not None:

@@ -81,13 +81,15 @@ def test_two_pictures_are_fitted_together(tmp_path, capsys):
     assert "View 1, side" in capsys.readouterr().out
 
 
-def test_a_folder_without_models_is_told(tmp_path, capsys, monkeypatch):
+def test_a_folder_of_damaged_models_is_told(tmp_path, capsys, monkeypatch):
     sample = load_sample()
+    for name in ("female.npz", "male.npz"):
+        (tmp_path / name).touch()
     monkeypatch.setenv("MAQUETTE_MODELS_DIR", str(tmp_path))
     assert fit_locally(arguments(tmp_path, sample.request.decode(), sample.image)) == 2
     printed = capsys.readouterr().out
+    assert "The body model cannot be used." in printed
     assert "male.npz" in printed
-    assert "python -m fitter.training" in printed
 
 
 def test_the_least_request_has_all_points_proposed(tmp_path):
@@ -174,7 +176,7 @@ def test_help_names_every_command(capsys):
         main(["--help"])
     assert ended.value.code == 0
     printed = capsys.readouterr().out
-    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "openapi"))
+    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "paper"))
 
 
 def test_the_version_is_printed(capsys):
