@@ -37,27 +37,6 @@ class FitLinks(WireModel):
     )
 
 
-class WebhookState(StrEnum):
-    """Where the notice of a job's end stands."""
-
-    WAITING = "waiting"
-    DUE = "due"
-    DELIVERED = "delivered"
-    GIVEN_UP = "given_up"
-
-
-class WebhookDelivery(WireModel):
-    """What became of the notice of a job's end."""
-
-    state: WebhookState = Field(
-        description="`waiting` for the job's end; `due` until the receiver has accepted it."
-    )
-    attempts: int = Field(ge=0, description="How many times it was sent, or tried to be.")
-    last_status: int | None = Field(description="What the receiver last answered.")
-    last_error: str | None = Field(description="Why the last attempt failed.")
-    next_attempt_at: datetime | None = Field(description="Null unless it is `due`.")
-
-
 class Fit(WireModel):
     """One accepted fit, and where it stands."""
 
@@ -81,9 +60,6 @@ class Fit(WireModel):
     )
     problem: Problem | None = Field(description="Why there is no result; null unless it failed.")
     label: str | None = Field(description="What the request called the person.")
-    webhook: WebhookDelivery | None = Field(
-        description="The notice of its end; null unless the request asked for one."
-    )
     links: FitLinks
 
 

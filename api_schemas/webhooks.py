@@ -80,8 +80,8 @@ class WebhookEventType(StrEnum):
 class WebhookEvent(WireModel):
     """The body of a notice.
 
-    ``data`` is the fit as ``GET /v1/fits/{id}`` answers it, but for ``webhook``, which is null: the
-    body is the same at every attempt. ``timestamp`` is when the fit ended.
+    ``data`` is the fit as ``GET /v1/fits/{id}`` answers it after its end, which is at
+    ``timestamp``. The body is the same at every attempt.
     """
 
     type: WebhookEventType

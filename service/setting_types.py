@@ -130,21 +130,6 @@ def _each_passes(check: Callable[[str], None]) -> AfterValidator:
     return AfterValidator(checked)
 
 
-def _check_ports(text: str) -> None:
-    ports = split_list(text)
-    if not ports or not all(
-        re.fullmatch(r"\d{1,5}", each) and 1 <= int(each) <= 65_535 for each in ports
-    ):
-        message = "write numbers from 1 to 65535 separated by commas, as in 443,80"
-        raise ValueError(message)
-
-
-def _check_pauses(text: str) -> None:
-    if not all(re.fullmatch(r"\s*\d{1,6}(\.\d+)?\s*", each) for each in text.split(",")):
-        message = "write seconds separated by commas, as in 5,300,1800"
-        raise ValueError(message)
-
-
 def _named(folder: Path) -> Path:
     if folder == Path():
         message = "name a folder, or unset it for the default"
@@ -182,5 +167,3 @@ BucketUrl = Annotated[str, _that_passes(check_bucket)]
 WebhookSecret = Annotated[str, _that_passes(secret_key)]
 Origins = Annotated[str, _each_passes(check_origin)]
 HostNames = Annotated[str, _each_passes(check_host_name)]
-Ports = Annotated[str, _that_passes(_check_ports)]
-Pauses = Annotated[str, _that_passes(_check_pauses)]

@@ -19,8 +19,6 @@ from service.setting_types import (
     ModelFolder,
     NamedFolder,
     Origins,
-    Pauses,
-    Ports,
     WebhookSecret,
     is_loopback,
     split_list,
@@ -177,23 +175,6 @@ class Settings(BaseSettings):
             "addresses are not public: for development and for receivers on the same network."
         ),
     )
-    webhook_ports: Ports = Field(
-        default="443,80",
-        description="Ports, separated by commas, that notices may be sent to at all other hosts.",
-    )
-    webhook_time_limit_s: float = Field(
-        default=15.0,
-        ge=SHORTEST_PACE_S,
-        le=600.0,
-        description="How long one attempt to send a notice may take.",
-    )
-    webhook_pauses_s: Pauses = Field(
-        default="5,300,1800,7200,18000,36000,50400,72000,86400",
-        description=(
-            "Seconds between the attempts to send a notice, separated by commas; after the last "
-            "attempt it is given up."
-        ),
-    )
     worker_processes: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
@@ -325,16 +306,6 @@ class Settings(BaseSettings):
     def allowed_webhook_hosts(self) -> tuple[str, ...]:
         """Hosts that notices may be sent to wherever they are."""
         return split_list(self.webhook_hosts.lower())
-
-    @property
-    def allowed_webhook_ports(self) -> tuple[int, ...]:
-        """Ports that notices may be sent to."""
-        return tuple(int(port) for port in split_list(self.webhook_ports))
-
-    @property
-    def webhook_schedule_s(self) -> tuple[float, ...]:
-        """The pauses between the attempts to send a notice."""
-        return tuple(float(pause) for pause in split_list(self.webhook_pauses_s))
 
     @property
     def tenant_queue_limit(self) -> int:

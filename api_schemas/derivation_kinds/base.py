@@ -2,11 +2,10 @@
 
 from enum import StrEnum
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict
 
 from api_schemas.base import WireModel
 from api_schemas.results import ResultFile
-from api_schemas.webhooks import WebhookTarget
 
 
 class BodyColours(StrEnum):
@@ -23,10 +22,6 @@ class BodyColours(StrEnum):
 
 class DerivationOptions(WireModel):
     """What all requests for a derivation have in common."""
-
-    webhook: WebhookTarget | None = Field(
-        default=None, description="Where to tell of the job's end."
-    )
 
 
 class DerivedFiles(WireModel):

@@ -256,6 +256,4 @@ def no_result(record: JobRecord) -> Problem:
 def _tag(record: JobRecord) -> str:
     """An entity tag that changes with everything that is shown of the fit."""
     parts = [record.last_event, int(record.cancel_requested)]
-    if record.webhook is not None:
-        parts += [record.webhook.state, record.webhook.attempts]
     return f'W/"{"-".join(map(str, parts))}"'

@@ -17,7 +17,7 @@ from prometheus_client.core import (
 from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
-from api_schemas.jobs import JobState, WebhookState
+from api_schemas.jobs import JobState
 from service.engine.dbos_jobs import JobEngine
 from service.engine.port import EngineUnavailableError
 from service.engine.statistics import BOUNDS_S
@@ -135,12 +135,6 @@ class _EngineCollector(Collector):
         for state in sorted(TERMINAL):
             outcomes.add_metric([JobState(state).value], statistics.outcomes.get(state, 0))
         yield outcomes
-        webhooks = GaugeMetricFamily(
-            "maquette_webhooks", "Notices of the jobs that are kept, by state.", labels=["state"]
-        )
-        for state in WebhookState:
-            webhooks.add_metric([state.value], statistics.webhooks.get(state, 0))
-        yield webhooks
         yield _gauge(
             "maquette_job_crashes",
             "How often processes of the jobs that are kept have died.",

@@ -33,7 +33,7 @@ from service.submissions.detector import check_detector
 from service.submissions.refusal import of_view, refused
 from service.submissions.submission import CheckedSubmission, check_submission
 from service.submissions.validation import parsed
-from service.webhooks.targets import check_webhook
+from service.webhooks.notices import check_webhook
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 

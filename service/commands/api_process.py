@@ -15,13 +15,12 @@ from service.blobs import BlobStore, setting_of_storage
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import JobEngine
 from service.engine.keys import KeyRing
+from service.engine.notices import NoticeRunner
 from service.engine.storage_identity import take_storage
-from service.engine.webhooks import WebhookLedger
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import open_disk
 from service.settings import Settings
-from service.webhooks.delivery import Deliverer
-from service.webhooks.sending import Sender
+from service.webhooks.notices import Sender
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,13 +28,13 @@ class ApiProcess:
     """What runs in an API process."""
 
     engine: JobEngine
-    webhooks: Deliverer
+    notices: NoticeRunner
     server: ApiServer
 
     def run(self, listener: socket.socket) -> None:
         """Serve until told to stop."""
         self.engine.start()
-        self.webhooks.start()
+        self.notices.start()
         self.server.run(sockets=[listener])
 
     def ask_to_stop(self) -> None:
@@ -44,7 +43,7 @@ class ApiProcess:
 
     def close(self) -> None:
         """Stop what runs beside the server."""
-        self.webhooks.stop()
+        self.notices.stop()
         self.engine.close()
 
 
@@ -55,7 +54,9 @@ def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
     take_storage(url, blobs, named=setting_of_storage(settings))
     database = open_database(url)
     engine = _engine(settings, database, blobs)
-    webhooks = _webhooks(settings, database, blobs)
+    sender = Sender(
+        blobs, secret=settings.webhook_secret, allowed_hosts=settings.allowed_webhook_hosts
+    )
     draining = threading.Event()
     app = create_app(
         settings=settings,
@@ -72,7 +73,7 @@ def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
         draining=draining,
         stop_delay_s=settings.stop_delay_s,
     )
-    return ApiProcess(engine=engine, webhooks=webhooks, server=server)
+    return ApiProcess(engine=engine, notices=NoticeRunner(database, sender.send), server=server)
 
 
 def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> JobEngine:
@@ -86,18 +87,4 @@ def _engine(settings: Settings, database: sa.Engine, blobs: BlobStore) -> JobEng
         sweep_interval_s=settings.sweep_interval_s,
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
-    )
-
-
-def _webhooks(settings: Settings, database: sa.Engine, blobs: BlobStore) -> Deliverer:
-    return Deliverer(
-        WebhookLedger(database, time_limit_s=settings.webhook_time_limit_s),
-        Sender(
-            allowed_hosts=settings.allowed_webhook_hosts,
-            ports=settings.allowed_webhook_ports,
-            time_limit_s=settings.webhook_time_limit_s,
-        ),
-        blobs,
-        secret=settings.webhook_secret,
-        pauses_s=settings.webhook_schedule_s,
     )

@@ -15,6 +15,7 @@ import sqlalchemy as sa
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
 from service.engine.availability import ABSENCES, retry_while_database_is_away
+from service.engine.notices import Notices
 from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
 from service.engine.records import (
     FILES,
@@ -142,6 +143,7 @@ class AttemptLog:
         self._executor_id = executor_id
         self._max_crashes = max_crashes
         self._retention_s = retention_s
+        self._notices = Notices(database)
         self._leave_slot = leave_slot
 
     @retry_while_database_is_away
@@ -175,6 +177,7 @@ class AttemptLog:
             JOBS.c.cancel_requested.is_(True),
             state=JobState.CANCELED,
             retention_s=self._retention_s,
+            notify=self._notices.enqueue,
         )
         if canceled is None:
             reason = given_up(f"The process of this job died {self._max_crashes} times.")
@@ -184,6 +187,7 @@ class AttemptLog:
                 JOBS.c.crashes >= self._max_crashes,
                 state=JobState.FAILED,
                 retention_s=self._retention_s,
+                notify=self._notices.enqueue,
                 values={"problem": reason.model_dump_json()},
             )
 
@@ -204,6 +208,7 @@ class AttemptLog:
                 JOBS.c.attempt == attempt,
                 state=state,
                 retention_s=self._retention_s,
+                notify=self._notices.enqueue,
                 values={
                     "files": FILES.dump_json(result.files).decode(),
                     "problem": result.problem.model_dump_json() if result.problem else None,

@@ -12,6 +12,7 @@ import sqlalchemy as sa
 from api_schemas.jobs import JobState
 from api_schemas.problems import Problem, problem
 from service.engine.attempts import given_up
+from service.engine.notices import Notices
 from service.engine.records import end_job
 from service.engine.tables import JOBS
 from service.engine.transactions import read_then_write
@@ -31,7 +32,7 @@ _DEATHS: Final = sa.func.coalesce(JOBS.c.worker_deaths, 0)
 _WAITING: Final = sa.select(JOBS.c.id).where(_ACTIVE, JOBS.c.claimed_by.is_(None))
 _ANY_WAITING: Final = _WAITING.limit(1)
 _NEXT: Final = (
-    _WAITING.order_by(JOBS.c.turn.nulls_first(), JOBS.c.created_at)
+    _WAITING.order_by(JOBS.c.turn, JOBS.c.created_at)
     .limit(sa.bindparam("most"))
     .with_for_update(skip_locked=True)
 )
@@ -44,6 +45,7 @@ class Claims:
         self._database = database
         self._executor_id = executor_id
         self._retention_s = retention_s
+        self._notices = Notices(database)
         self._own = sa.and_(_ACTIVE, JOBS.c.claimed_by == executor_id)
 
     def take(self, most: int) -> list[str]:
@@ -117,5 +119,6 @@ class Claims:
             job_id,
             state=JobState.FAILED,
             retention_s=self._retention_s,
+            notify=self._notices.enqueue,
             values={"problem": reason.model_dump_json()},
         )

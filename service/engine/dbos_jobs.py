@@ -10,7 +10,7 @@ import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import JobState, WebhookState
+from api_schemas.jobs import JobState
 from service.blobs import BlobStore
 from service.engine.admission import Admission
 from service.engine.availability import available
@@ -148,14 +148,6 @@ class JobEngine:
             }
             outcomes = read_outcomes(connection)
             durations = read_durations(connection)
-            webhooks = {
-                WebhookState(row.webhook_state): row.jobs
-                for row in connection.execute(
-                    sa.select(JOBS.c.webhook_state, sa.func.count().label("jobs"))
-                    .where(JOBS.c.webhook_state.is_not(None))
-                    .group_by(JOBS.c.webhook_state)
-                )
-            }
             crashes = connection.execute(sa.select(sa.func.sum(JOBS.c.crashes))).scalar_one()
         queued = active.get(JobState.QUEUED.value)
         running = active.get(JobState.RUNNING.value)
@@ -165,7 +157,6 @@ class JobEngine:
             oldest_queued_s=max(0.0, time.time() - queued.oldest) if queued else 0.0,
             outcomes=outcomes,
             durations=durations,
-            webhooks=webhooks,
             crashes=int(crashes or 0),
         )
 

@@ -68,6 +68,7 @@ class Executions:
     ) -> list[WorkflowStatus]:
         return self._client.list_workflows(
             workflow_ids=None if job_id is None else [job_id],
+            name=WORKFLOW,
             status=list(status),
             executor_id=executor_id,
             load_input=False,

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final, Protocol
 
-from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
+from api_schemas.jobs import EventData, EventKind, JobState
 from api_schemas.problems import Problem
 from api_schemas.results import ResultFile
 
@@ -51,21 +51,6 @@ class NewJob:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WebhookRecord:
-    """The state of the notice of a job's end; times are seconds since the epoch.
-
-    ``target`` is the blob that says whom to notify.
-    """
-
-    target: StoredBlob
-    state: WebhookState
-    attempts: int
-    last_status: int | None
-    last_error: str | None
-    next_attempt_at: float | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class JobRecord:
     """A stored job; times are seconds since the epoch.
 
@@ -96,7 +81,7 @@ class JobRecord:
     fingerprint: str | None
     last_event: int
     request_id: str | None
-    webhook: WebhookRecord | None
+    webhook: StoredBlob | None
 
     @property
     def files(self) -> Mapping[str, StoredBlob]:
@@ -199,7 +184,6 @@ class EngineStatistics:
     oldest_queued_s: float
     outcomes: Mapping[JobState, int]
     durations: tuple[DurationHistogram, ...]
-    webhooks: Mapping[WebhookState, int]
     crashes: int
 
 

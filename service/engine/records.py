@@ -1,17 +1,17 @@
 """Conversion between rows and records, and the statements both sides of the engine share."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from typing import Any, Final
 
 import sqlalchemy as sa
 from pydantic import TypeAdapter
 
-from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
+from api_schemas.jobs import EventData, EventKind, JobState
 from api_schemas.problems import Problem
 from api_schemas.results import ResultFile
-from service.engine.port import JobRecord, StoredBlob, WebhookRecord
+from service.engine.port import JobRecord, StoredBlob
 from service.engine.statistics import count_ending
 from service.engine.tables import EVENTS, JOBS
 from service.jobs.states import may_become
@@ -55,15 +55,8 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         request_id=values["request_id"],
         last_event=values["last_event"],
         webhook=None
-        if values["webhook_state"] is None
-        else WebhookRecord(
-            target=StoredBlob(digest=values["webhook_target"], media_type=JSON),
-            state=WebhookState(values["webhook_state"]),
-            attempts=values["webhook_attempts"],
-            last_status=values["webhook_status"],
-            last_error=values["webhook_error"],
-            next_attempt_at=values["webhook_due_at"],
-        ),
+        if values["webhook_target"] is None
+        else StoredBlob(digest=values["webhook_target"], media_type=JSON),
     )
 
 
@@ -126,28 +119,27 @@ def end_job(
     *conditions: sa.ColumnElement[bool],
     state: JobState,
     retention_s: float,
+    notify: Callable[[sa.Connection, JobRecord], None],
     values: Mapping[str, object] | None = None,
 ) -> JobRecord | None:
     """End a job like :func:`move_job`; it expires ``retention_s`` from now.
 
     If its creation is later than now, it expires ``retention_s`` from then: a clock that has been
     set back must not make the job expire the moment it is corrected. A derivation expires when what
-    it is made of does, as recorded when it was accepted. The notice of its end, if any, becomes due
-    now.
+    it is made of does, as recorded when it was accepted. ``notify`` has its end
+    told, in the same transaction, if somebody asked for that.
     """
     now = time.time()
     latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)
-    awaited = JOBS.c.webhook_state == WebhookState.WAITING.value
     changes = {
         "finished_at": now,
         "expires_at": sa.func.coalesce(JOBS.c.expires_at, latest + retention_s),
-        "webhook_due_at": sa.case((awaited, now)),
-        "webhook_state": sa.case((awaited, WebhookState.DUE.value)),
     }
     job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
     if job is not None:
         append_event(connection, job, EventKind.END)
         count_ending(connection, job)
+        notify(connection, job)
     return job
 
 

@@ -19,6 +19,7 @@ from service.engine.expiry import (
     postpone,
     take_out,
 )
+from service.engine.notices import Notices, notice_of
 from service.engine.transactions import read_then_write
 
 LOG: Final = logging.getLogger(__name__)
@@ -39,6 +40,7 @@ class Sweeper:
         self._client = client
         self._blobs = blobs
         self._interval_s = interval_s
+        self._notices = Notices(database)
         self._clock = ClockGuard()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
@@ -54,6 +56,7 @@ class Sweeper:
 
     def sweep(self) -> int:
         """Expire and erase what is due; returns how many scopes were erased."""
+        self._notices.enqueue_left()
         now = self._clock.settled_time()
         if now is not None:
             while not self._stopped.is_set():
@@ -93,8 +96,9 @@ class Sweeper:
 
     def _forget(self, scope: str) -> None:
         # Also what DBOS stores about it: a no-op if DELETE has already done so.
-        self._client.cancel_workflow(scope)
-        self._client.delete_workflow(scope)
+        for each in (scope, notice_of(scope)):
+            self._client.cancel_workflow(each)
+            self._client.delete_workflow(each)
         with self._database.begin() as connection:
             take_out(connection, scope)
 

@@ -38,11 +38,6 @@ JOBS = sa.Table(
     sa.Column("request_id", sa.String(64)),
     sa.Column("last_event", sa.Integer, nullable=False),
     sa.Column("webhook_target", sa.String(64)),
-    sa.Column("webhook_state", sa.String(16)),
-    sa.Column("webhook_due_at", sa.Double),
-    sa.Column("webhook_attempts", sa.Integer, nullable=False, default=0),
-    sa.Column("webhook_status", sa.Integer),
-    sa.Column("webhook_error", sa.Text),
     sa.Column("worker_deaths", sa.Integer),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
     sa.Index("maquette_jobs_newest", "tenant", "parent_id", "created_at", "id"),
@@ -50,7 +45,6 @@ JOBS = sa.Table(
     sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
-    sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
 """Fits and derivations; a derivation names in ``parent_id`` the fit it is made of. ``inputs`` are
 blobs in the job's own scope, by name, as JSON, ``pictures`` of them pictures of a person;

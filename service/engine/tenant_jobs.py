@@ -10,7 +10,7 @@ import sqlalchemy as sa
 from dbos import DBOSClient
 from sqlalchemy.exc import IntegrityError
 
-from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
+from api_schemas.jobs import EventData, EventKind, JobState
 from service.engine.admission import Admission
 from service.engine.availability import ABSENCES, available
 from service.engine.expiry import (
@@ -20,6 +20,7 @@ from service.engine.expiry import (
     forget_pages,
     take_out,
 )
+from service.engine.notices import Notices, notice_of
 from service.engine.port import (
     Idempotency,
     JobEvent,
@@ -60,6 +61,7 @@ class TenantJobs:
         self._client = client
         self._admission = admission
         self._retention_s = retention_s
+        self._notices = Notices(database)
 
     def derivations(self, parent_id: str) -> "TenantJobs":
         """Return the jobs derived from a fit of this tenant; they are erased with it."""
@@ -175,6 +177,7 @@ class TenantJobs:
                 JOBS.c.state == JobState.QUEUED.value,
                 state=JobState.CANCELED,
                 retention_s=self._retention_s,
+                notify=self._notices.enqueue,
                 values={"cancel_requested": True},
             )
             if canceled is None:
@@ -210,9 +213,10 @@ class TenantJobs:
         return forgotten
 
     def _forget_traces(self, forgotten: Sequence[str]) -> None:
-        for each in forgotten:
-            self._client.cancel_workflow(each)
-            self._client.delete_workflow(each)
+        for job in forgotten:
+            for each in (job, notice_of(job)):
+                self._client.cancel_workflow(each)
+                self._client.delete_workflow(each)
         forget_pages(self._database)
 
     @available
@@ -318,7 +322,6 @@ class TenantJobs:
                     request_id=job.request_id,
                     last_event=1,
                     webhook_target=job.webhook.digest if job.webhook else None,
-                    webhook_state=WebhookState.WAITING.value if job.webhook else None,
                 )
                 .returning(JOBS)
             )

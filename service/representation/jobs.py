@@ -4,8 +4,8 @@ from datetime import UTC, datetime
 from typing import Final
 from uuid import UUID
 
-from api_schemas.jobs import Fit, FitLinks, JobState, WebhookDelivery
-from service.engine.port import JobRecord, WebhookRecord
+from api_schemas.jobs import Fit, FitLinks, JobState
+from service.engine.port import JobRecord
 from service.jobs.states import ACTIVE
 
 FITS: Final = "/v1/fits"
@@ -36,7 +36,6 @@ def represent(record: JobRecord) -> Fit:
         expires_at=None if record.expires_at is None else _moment(record.expires_at),
         problem=record.problem,
         label=record.label,
-        webhook=None if record.webhook is None else _delivery(record.webhook),
         links=_links(record),
     )
 
@@ -52,18 +51,6 @@ def _links(record: JobRecord) -> FitLinks:
         result=f"{path}/result" if succeeded else None,
         products=f"{path}/products" if succeeded else None,
         files={name: f"{path}/files/{name}" for name in record.files},
-    )
-
-
-def _delivery(webhook: WebhookRecord) -> WebhookDelivery:
-    return WebhookDelivery(
-        state=webhook.state,
-        attempts=webhook.attempts,
-        last_status=webhook.last_status,
-        last_error=webhook.last_error,
-        next_attempt_at=None
-        if webhook.next_attempt_at is None
-        else _moment(webhook.next_attempt_at),
     )
 
 

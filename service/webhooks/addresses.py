@@ -53,6 +53,9 @@ addresses have them. Python's own list depends on its release: it is asked as we
 
 DEFAULT_PORTS: Final = {"http": 80, "https": 443}
 
+PORTS: Final = (443, 80)
+"""Where notices are sent, but for hosts that the settings name."""
+
 
 class AddressRefusedError(Exception):
     """The name is unknown, or has no address a notice may go to; the message says which.
@@ -96,9 +99,9 @@ def port_of(url: httpx.URL) -> int:
     return DEFAULT_PORTS[url.scheme] if url.port is None else url.port
 
 
-def is_port_refused(url: httpx.URL, allowed_hosts: Collection[str], ports: Collection[int]) -> bool:
+def is_port_refused(url: httpx.URL, allowed_hosts: Collection[str]) -> bool:
     """Whether notices are not sent to an address's port; allowed hosts may use any."""
-    return url.host not in allowed_hosts and port_of(url) not in ports
+    return url.host not in allowed_hosts and port_of(url) not in PORTS
 
 
 async def resolve(host: str, port: int, allowed_hosts: Collection[str]) -> Sequence[IPAddress]:

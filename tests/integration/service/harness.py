@@ -63,7 +63,6 @@ OWN_SECRET = "whsec_" + "A" * 32
 SHARED: Mapping[str, object] = {
     # Notices go to the receivers of tests.
     "webhook_hosts": "127.0.0.1",
-    "webhook_pauses_s": "0.2,0.2,0.2",
     "webhook_secret": OWN_SECRET,
     # It idles while others are tested: every beat looks after all workers and their jobs.
     "heartbeat_s": 1.0,

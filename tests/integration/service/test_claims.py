@@ -41,7 +41,7 @@ def attempts(database: sa.Engine, worker: str) -> AttemptLog:
     )
 
 
-def accept(database: sa.Engine, name: str, *, turn: int | None = 1) -> None:
+def accept(database: sa.Engine, name: str, *, turn: int = 1) -> None:
     with database.begin() as connection:
         insert_job(connection, name, turn=turn)
 
@@ -54,7 +54,7 @@ def state(database: sa.Engine, name: str) -> JobState:
 
 
 def test_jobs_are_claimed_by_their_turn_and_by_one_worker_only(database: sa.Engine):
-    for name, turn in {"third": 7, "second": 3, "first": None}.items():
+    for name, turn in {"third": 7, "second": 3, "first": 1}.items():
         accept(database, name, turn=turn)
     one, other = claims(database, "one"), claims(database, "other")
     assert one.take(1) == ["first"]

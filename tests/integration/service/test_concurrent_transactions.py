@@ -18,7 +18,6 @@ from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from service.engine.records import end_job, move_job
 from service.engine.tables import JOBS, TOMBSTONES
 from service.engine.transactions import read_then_write
-from service.engine.webhooks import WebhookLedger
 from tests.integration.service.harness import Machine
 from tests.integration.service.test_images import engine_of
 
@@ -80,7 +79,9 @@ def fitted(engine: JobEngine, database: sa.Engine, name: str, *, kept_s: float) 
     assert accept(engine.of("ours"), name) is SubmitOutcome.ACCEPTED
     with database.begin() as connection:
         move_job(connection, name, state=JobState.RUNNING, values={"attempt": 1})
-        end_job(connection, name, state=JobState.SUCCEEDED, retention_s=kept_s)
+        end_job(
+            connection, name, state=JobState.SUCCEEDED, retention_s=kept_s, notify=lambda *_: None
+        )
 
 
 def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
@@ -96,17 +97,3 @@ def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
     assert other == [0]
     with database.connect() as connection:
         assert connection.execute(sa.select(TOMBSTONES.c.id)).scalars().all() == ["short"]
-
-
-def test_a_notice_is_claimed_by_one_of_two_who_find_it_due(engine: JobEngine, database: sa.Engine):
-    ledger = WebhookLedger(database, time_limit_s=10.0)
-    fitted(engine, database, "told", kept_s=100.0)
-    due = {"webhook_state": "due", "webhook_due_at": 1.0, "webhook_target": "0" * 64}
-    with database.begin() as connection:
-        connection.execute(sa.update(JOBS).values(due))
-    # The first look is without a transaction.
-    with interfered_with(
-        f"{JOBS.c.webhook_due_at} <=", lambda: ledger.claim(9), reading=2
-    ) as other:
-        assert [each.attempt for each in ledger.claim(9)] == [1]
-    assert [list(each) for each in other] == [[]]

@@ -77,7 +77,7 @@ def told(service: Service, receiver: Receiver) -> str:
     webhook = {"url": receiver.url(PATH), "secret": SECRET}
     path = service.post(request=REQUEST | {"webhook": webhook}).headers["Location"]
     service.ended(path)
-    eventually(lambda: service.job(path)["webhook"]["state"] == "delivered", what="it is told")
+    eventually(lambda: receiver.notices, what="it is told")
     return path
 
 

@@ -69,14 +69,6 @@ def test_origins_are_read_as_a_list_and_a_page_is_no_origin():
         Settings(cors_origins="*")
 
 
-@pytest.mark.parametrize("ports", ["", "http", "0", "443,70000", "443;80"])
-def test_ports_of_receivers_are_ports(ports: str):
-    assert Settings().allowed_webhook_ports == (443, 80)
-    assert Settings(webhook_ports="8443, 443").allowed_webhook_ports == (8443, 443)
-    with pytest.raises(ValidationError, match="65535"):
-        Settings(webhook_ports=ports)
-
-
 def test_object_storage_is_named_by_bucket():
     assert Settings(blob_url="s3://bucket/prefix").blob_url == "s3://bucket/prefix"
     with pytest.raises(ValidationError, match="s3://"):
@@ -164,13 +156,6 @@ def test_hosts_for_notices_are_names_alone(hosts: str):
 def test_a_data_folder_has_a_name():
     with pytest.raises(ValidationError, match="name a folder"):
         Settings(data_dir="")
-
-
-def test_the_pauses_between_notices_are_seconds():
-    assert Settings(webhook_pauses_s="5, 300,0.5").webhook_schedule_s == (5.0, 300.0, 0.5)
-    for pauses in ("", "5,,6", "soon", "-1", "5;6"):
-        with pytest.raises(ValidationError, match="seconds"):
-            Settings(webhook_pauses_s=pauses)
 
 
 def test_the_secret_of_notices_is_checked_and_not_shown():

@@ -6,7 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from api_schemas.webhooks import WebhookTarget
-from service.webhooks.delivery import signed_headers
+from service.webhooks.notices import signed_headers
 
 SECRET = "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw"
 
