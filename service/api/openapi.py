@@ -38,9 +38,7 @@ from fitter.vocabulary.points import (
     TRUNK_POINT_NAMES,
 )
 from service.api.json_bodies import JSON, json_content
-from service.api.openapi_components import share_components
-from service.api.operation_links import LINKS
-from service.api.problems import documented
+from service.api.problems import documented, documented_responses
 
 SUMMARY: Final = "Human body shape, pose, light and measurements from a single picture."
 
@@ -200,7 +198,7 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     _drop_titles(schemas)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
     document["components"] |= _SECURITY
-    share_components(document)
+    document["components"]["responses"] = documented_responses(json.dumps(document["paths"]))
     # With a key or without: which of the two, the service's settings say.
     document["security"] = [{_KEY_SCHEME: []}, {}]
     return document
@@ -249,19 +247,16 @@ def _read(schemas: dict[str, Any], models: Iterable[type[BaseModel]]) -> set[str
 
 
 def _complete_operation(operation: dict[str, Any]) -> None:
-    name: str = operation["operationId"]
     if _is_fastapi_error(operation):
         del operation["responses"]["422"]
     for parameter in operation.get("parameters", ()):
         _drop_null(parameter["schema"])
     for examples, content in _with_examples(operation):
         content["examples"] = {each: {"value": value} for each, value in examples.items()}
-    for status, answer in operation["responses"].items():
+    for answer in operation["responses"].values():
         if "$ref" in answer:
             # FastAPI adds a description of its own.
             answer.pop("description", None)
-        if (name, status) in LINKS:
-            answer["links"] = LINKS[name, status]
     operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
 
 

@@ -19,7 +19,6 @@ from api_schemas.problems import (
     field_problem,
     problem,
 )
-from service.api.problem_samples import PROBLEM_SAMPLES
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
 from service.submissions.refusal import RefusedError
@@ -29,8 +28,8 @@ LOG: Final = logging.getLogger(__name__)
 
 RETRY_AFTER_S: Final = 5
 
-RESPONSES: Final = "#/components/responses/"
-_OR: Final = "-or-"
+RESPONSE_NAME: Final = "Problem"
+RESPONSES: Final = f"#/components/responses/{RESPONSE_NAME}"
 
 
 class ProblemError(Exception):
@@ -55,28 +54,25 @@ def not_found(*, what: str) -> ProblemError:
 
 def documented(*slugs: str) -> dict[int | str, dict[str, Any]]:
     """Refer to the problems an operation may answer with, for the OpenAPI document."""
-    by_status: dict[int, list[str]] = {}
-    for slug in slugs:
-        by_status.setdefault(PROBLEM_TYPES[slug].status, []).append(slug)
     return {
-        status: {"$ref": f"{RESPONSES}{_OR.join(sorted(together))}"}
-        for status, together in by_status.items()
+        status: {"$ref": f"{RESPONSES}{status}"}
+        for status in dict.fromkeys(PROBLEM_TYPES[slug].status for slug in slugs)
     }
 
 
-def shared_response(name: str) -> dict[str, Any]:
-    """Describe what :func:`documented` refers to by this name: problems of one status."""
-    slugs = name.split(_OR)
+def documented_responses(paths: str) -> dict[str, dict[str, Any]]:
+    """Describe what :func:`documented` refers to, so far as the document's ``paths`` do.
+
+    There is one for each status, which names the problems that have it.
+    """
+    titles: dict[int, list[str]] = {}
+    for each in PROBLEM_TYPES.values():
+        titles.setdefault(each.status, []).append(each.title)
+    content = {PROBLEM_MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
     return {
-        "description": "; ".join(PROBLEM_TYPES[slug].title for slug in slugs),
-        "content": {
-            PROBLEM_MEDIA_TYPE: {
-                "schema": {"$ref": "#/components/schemas/Problem"},
-                "examples": {
-                    slug: {"value": PROBLEM_SAMPLES[slug].model_dump(mode="json")} for slug in slugs
-                },
-            }
-        },
+        f"{RESPONSE_NAME}{status}": {"description": "; ".join(found), "content": content}
+        for status, found in sorted(titles.items())
+        if f'"{RESPONSES}{status}"' in paths
     }
 
 

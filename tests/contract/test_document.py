@@ -56,7 +56,7 @@ def test_every_example_in_a_type_is_of_that_type():
 def test_a_wrong_example_would_be_noticed():
     schema, value = next(each.values for each in EXAMPLES if " request " in each.id)
     broken = copy.deepcopy(value)
-    broken["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
+    broken["views"][0]["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
     with pytest.raises(jsonschema_rs.ValidationError):
         validator(schema, DOCUMENT).validate(broken)
 
@@ -68,7 +68,7 @@ def test_every_body_has_an_example_but_those_that_are_no_text():
         for where, content in BODIES
         if not content.get("examples")
         and content.get("schema") not in (BINARY, ANY_FILE)
-        and not where.endswith("multipart/form-data")
+        and not where.endswith(("multipart/form-data", "application/problem+json"))
     }
     assert silent == set()
 
@@ -99,23 +99,6 @@ def test_every_operation_says_how_it_ends(operation):
     assert all(answer["description"] for answer in operation.content["responses"].values())
     assert operation.content["summary"]
     assert operation.content["description"]
-
-
-def test_every_link_leads_to_an_operation_and_gives_what_its_path_needs():
-    by_id = {operation.id: operation for operation in OPERATIONS}
-    links = [
-        (operation, link)
-        for operation in OPERATIONS
-        for answer in operation.content["responses"].values()
-        for link in answer.get("links", {}).values()
-    ]
-    for operation, link in links:
-        target = by_id[link["operationId"]]
-        needed = {p["name"] for p in target.content.get("parameters", ()) if p["in"] == "path"}
-        assert set(link["parameters"]) == needed, f"{operation} -> {target}"
-    reached = {link["operationId"] for _, link in links}
-    about_one = {operation.id for operation in OPERATIONS if "_id}" in operation.path}
-    assert about_one <= reached
 
 
 def test_parameters_are_left_out_and_never_null():
