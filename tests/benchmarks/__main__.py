@@ -17,24 +17,14 @@ FITS = {
     "goals": 3,
     "stages": 20,
     "simplex": 3,
-    "memory": 1,
     "idle": 3,
     "throughput": 10,
-    "scaling": 5,
-    "startup": 3,
     "demo": 3,
     "upload": 5,
-    "page": 10,
-    "load": 1_000,
     "overhead": 20,
-    "workers": 20,
-    "fairness": 60,
-    "cancel": 20,
-    "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``goals`` rounds, of ``idle`` services, of ``startup`` starts, of ``demo`` runs, of ``page``
-visits, of ``load`` jobs that wait, of ``soak`` minutes."""
+of ``goals`` rounds, of ``idle`` services, of ``demo`` runs."""
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -2,7 +2,7 @@
 
 import contextlib
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import httpx
 
@@ -45,14 +45,3 @@ def used_s(deployment: Deployment, kind: Kind) -> float:
         )
         return sum(ended) + sum(processor_s(each.pid) for each in deployment.of_kind(kind))
     return sum(processor_s(process.pid) for process in deployment.of_kind(kind))
-
-
-def all_ended(client: httpx.Client, paths: Sequence[str]) -> None:
-    """Wait for the ends of jobs, which all succeed."""
-    for path in paths:
-        while (state := client.get(path).raise_for_status().json()["state"]) in (
-            "queued",
-            "running",
-        ):
-            time.sleep(0.05)
-        assert state == "succeeded", f"{path} {state}"
