@@ -26,9 +26,10 @@ QUALITY = 82
 def sample_request(name: str = "sample", points: str = "request") -> FitRequest:
     """The request of one of the packaged samples, with its clicks."""
     asked = json.loads((FOLDER / f"{points}.json").read_text())
+    (of_view,) = asked["views"]
     view = View(
         image=(FOLDER / f"{name}.jpg").read_bytes(),
-        clicks={key: Click(x=at["x"], y=at["y"]) for key, at in asked["points"].items()},
+        clicks={key: Click(x=at["x"], y=at["y"]) for key, at in of_view["points"].items()},
     )
     person = Person(gender=Gender(asked["gender"]), height_m=asked["height_m"])
     return FitRequest(person=person, views=(view,))

@@ -13,12 +13,12 @@ from fitter import files_of, fit
 request = sample_request()
 result = fit(request)
 files = files_of(result, request.views[0].image)
-show(files["overlay.png"], titles=("the outline over the picture",))
+show(files["views/0/overlay.png"], titles=("the outline over the picture",))
 
 # %%
 # As clay, posed and canonical.
 
-show(files["views.png"])
+show(files["views/0/views.png"])
 
 # %%
 # Measurements come with a standard error each. What was given, here the height, is met exactly.

@@ -17,9 +17,9 @@ result = fit(request)
 files = files_of(result, request.views[0].image)
 show(
     request.views[0].image,
-    files["albedo.png"],
-    files["shading_lambertian.png"],
-    files["shading.png"],
+    files["views/0/albedo.png"],
+    files["views/0/shading_lambertian.png"],
+    files["views/0/shading.png"],
     titles=("picture", "albedo", "Lambertian", "Blinn-Phong"),
 )
 
