@@ -1,16 +1,19 @@
-"""A client of the HTTP API: send pictures, wait for the fit, take its result and files.
+"""A client of the HTTP API: have pictures fitted, take the result and its files, have more made.
 
     with Maquette("http://127.0.0.1:8000") as maquette:
         fit = maquette.fit({"gender": "female", "height_m": 1.68}, Path("my.jpg"))
-        result = maquette.result(maquette.wait_for(fit))
+        result = maquette.result(fit)
+        posed = maquette.product(fit, {"kind": "pose", "pose": "sitting"})
+        glb = maquette.file(posed, "body_reposed.glb")
 
-The service checks requests, and its refusals say which field is at fault; results are of the types
+The service checks requests, and its refusals say which field is at fault; answers are of the types
 of this package. ``api_schemas/typescript`` is the same for TypeScript.
 """
 
+import contextlib
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Final, Self, TypeVar
@@ -18,26 +21,27 @@ from typing import Any, Final, Self, TypeVar
 import httpx
 from pydantic import BaseModel
 
-from api_schemas.jobs import Fit, JobState
+from api_schemas.jobs import EventData, EventKind, Fit, JobState
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
+from api_schemas.products import Product
 from api_schemas.results import FitResult
 
-WAIT_S: Final = 30
-"""How long an answer about a fit that was sent waits for its end."""
+_WAIT_S: Final = 30
+"""How long an answer about a product waits for its end."""
 
-_POLL_S: Final = 1.0
+_PAUSE_S: Final = 1.0
 _TIMEOUT_S: Final = 60.0
 _ACTIVE: Final = (JobState.QUEUED, JobState.RUNNING)
 
 Model = TypeVar("Model", bound=BaseModel)
-Picture = Path | str | bytes
+Content = Path | str | bytes
 """A file, by its path, or its content."""
 
 Request = BaseModel | Mapping[str, Any]
 
 
 class MaquetteError(Exception):
-    """The service refused a call or does not answer, or a fit has no result.
+    """The service refused a call or does not answer, or a fit or product failed.
 
     ``problem`` says why and what to do, ``status`` is that of HTTP; both are None where nothing
     answers.
@@ -50,118 +54,129 @@ class MaquetteError(Exception):
 
 
 class Maquette:
-    """The service at an address.
+    """The service at an address, with an API key where it asks for one.
 
-    Parameters
-    ----------
-    address
-        As ``https://measure.example.org``.
-    token
-        A key, where the service asks for one.
-    transport
-        What sends the requests, in place of the network.
+    ``transport`` sends the requests in place of the network.
     """
 
     def __init__(
         self,
         address: str,
         *,
-        token: str | None = None,
+        key: str | None = None,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
-        headers = {} if token is None else {"Authorization": f"Bearer {token}"}
+        headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         self._client = httpx.Client(
-            base_url=address, headers=headers, timeout=_TIMEOUT_S + WAIT_S, transport=transport
+            base_url=address, headers=headers, timeout=_TIMEOUT_S, transport=transport
         )
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Close its connections."""
         self._client.close()
 
     def fit(
         self,
         request: Request,
-        *pictures: Picture,
-        masks: Sequence[Picture] = (),
+        *pictures: Content,
+        masks: Sequence[Content] = (),
         idempotency_key: str | None = None,
+        on_progress: Callable[[EventData], None] = lambda _: None,
     ) -> Fit:
-        """Send one to six pictures, in the order of the request's ``views``; it may have ended.
+        """Have one to six pictures fitted, in the order of ``views``; returns the fit that is done.
 
         ``masks`` are none, or one for each picture, white on the person. The same key with the same
         content gives the same fit, however often it is sent.
-        """
-        asked = (
-            request.model_dump_json(exclude_unset=True)
-            if isinstance(request, BaseModel)
-            else json.dumps(request)
-        )
-        files = [("request", ("request.json", asked.encode(), "application/json"))]
-        for part, sent in (("image", pictures), ("mask", masks)):
-            files += [(part, (part, _content(each), "application/octet-stream")) for each in sent]
-        headers = {"Prefer": f"wait={WAIT_S}"}
-        if idempotency_key is not None:
-            headers["Idempotency-Key"] = idempotency_key
-        return _read(Fit, self._call("POST", "/v1/fits", files=files, headers=headers))
-
-    def wait_for(self, fit: Fit, *, on_progress: Callable[[Fit], None] = lambda _: None) -> Fit:
-        """Return the fit once it has succeeded.
 
         Raises
         ------
         MaquetteError
-            If it ended otherwise.
+            If it is refused, or does not succeed.
         """
-        while fit.state in _ACTIVE:
-            on_progress(fit)
-            time.sleep(_POLL_S)
-            fit = _read(Fit, self._call("GET", fit.links.self))
-        if fit.state is not JobState.SUCCEEDED:
-            raise _failure(
-                fit.problem, HTTPStatus.CONFLICT, otherwise=f"The fit ended as {fit.state}."
-            )
-        return fit
+        parts = [_part("request", _json(request))]
+        parts += [_part("image", _content(each)) for each in pictures]
+        parts += [_part("mask", _content(each)) for each in masks]
+        headers = {} if idempotency_key is None else {"Idempotency-Key": idempotency_key}
+        fit = _read(Fit, self._call("POST", "/v1/fits", files=parts, headers=headers))
+        for event in self._events(fit):
+            on_progress(event)
+        return _succeeded(_read(Fit, self._call("GET", fit.links.self)))
 
     def result(self, fit: Fit, *, stages: bool = False) -> FitResult:
-        """Return what a fit that succeeded has found; ``stages`` is empty unless asked for."""
+        """Return what a fit has found; ``stages`` is empty unless asked for."""
         include = {"include": "stages"} if stages else {}
-        answer = self._call("GET", f"{fit.links.self}/result", params=include)
-        return _read(FitResult, answer)
+        return _read(FitResult, self._call("GET", f"{fit.links.self}/result", params=include))
 
-    def file(self, fit: Fit, name: str) -> bytes:
-        """Return one of its files, ``views/0/overlay.png`` or ``body_canonical.obj``."""
-        return self._call("GET", f"{fit.links.self}/files/{name}").content
+    def product(self, fit: Fit, request: Request, **part: Content) -> Product:
+        """Have something made of a fit; ``part`` is what comes along, as ``chart=Path("a.csv")``.
+
+        Raises as :meth:`fit` does.
+        """
+        parts = [_part("request", _json(request))]
+        parts += [_part(name, _content(each)) for name, each in part.items()]
+        headers = {"Prefer": f"wait={_WAIT_S}"}
+        path = f"{fit.links.self}/products"
+        product = _read(Product, self._call("POST", path, files=parts, headers=headers))
+        while product.state in _ACTIVE:
+            time.sleep(_PAUSE_S)
+            product = _read(Product, self._call("GET", product.links.self))
+        return _succeeded(product)
+
+    def file(self, of: Fit | Product, name: str) -> bytes:
+        """Return a file of a fit or product, ``views/0/overlay.png`` or ``body_canonical.obj``."""
+        return self._call("GET", f"{of.links.self}/files/{name}").content
 
     def erase(self, fit: Fit) -> None:
-        """Stop it if it runs, and erase its pictures and results."""
+        """Erase a fit with its pictures, results and products."""
         self._call("DELETE", fit.links.self)
+
+    def _events(self, fit: Fit) -> Iterator[EventData]:
+        """Follow a fit to its end, over broken connections too."""
+        seen, kind = "0", ""
+        while kind != EventKind.END:
+            headers = {"Last-Event-ID": seen}
+            with (
+                contextlib.suppress(httpx.TransportError),
+                self._client.stream("GET", fit.links.events, headers=headers) as stream,
+            ):
+                if HTTPStatus.OK < stream.status_code < HTTPStatus.INTERNAL_SERVER_ERROR:
+                    return
+                for line in stream.iter_lines():
+                    name, _, value = line.partition(": ")
+                    seen = value if name == "id" else seen
+                    kind = value if name == "event" else kind
+                    if name == "data":
+                        yield EventData.model_validate_json(value, extra="ignore")
+            if kind != EventKind.END:
+                time.sleep(_PAUSE_S)
 
     def _call(self, method: str, path: str, **sent: Any) -> httpx.Response:
         try:
             answer = self._client.request(method, path, **sent)
         except httpx.TransportError as error:
-            message = (
-                f"{self._client.base_url} does not answer ({error}). Check the address, and that "
-                "the service runs."
-            )
+            message = f"{self._client.base_url} does not answer ({error}). Check the address."
             raise MaquetteError(message, status=None, problem=None) from error
         if answer.is_success:
             return answer
         is_problem = answer.headers.get("Content-Type", "").startswith(PROBLEM_MEDIA_TYPE)
-        raise _failure(
-            _read(Problem, answer) if is_problem else None,
-            answer.status_code,
-            otherwise=f"The service answered {answer.status_code}.",
-        )
+        problem = _read(Problem, answer) if is_problem else None
+        raise _failure(problem, answer.status_code, f"The service answered {answer.status_code}.")
 
 
-def _content(picture: Picture) -> bytes:
-    return picture if isinstance(picture, bytes) else Path(picture).read_bytes()
+def _part(name: str, content: bytes) -> tuple[str, tuple[str, bytes, str]]:
+    return name, (name, content, "application/octet-stream")
+
+
+def _json(request: Request) -> bytes:
+    if isinstance(request, BaseModel):
+        return request.model_dump_json(exclude_unset=True).encode()
+    return json.dumps(request).encode()
+
+
+def _content(file: Content) -> bytes:
+    return file if isinstance(file, bytes) else Path(file).read_bytes()
 
 
 def _read(kind: type[Model], answer: httpx.Response) -> Model:
@@ -169,6 +184,15 @@ def _read(kind: type[Model], answer: httpx.Response) -> Model:
     return kind.model_validate_json(answer.content, extra="ignore")
 
 
-def _failure(problem: Problem | None, status: int, *, otherwise: str) -> MaquetteError:
+Ended = TypeVar("Ended", Fit, Product)
+
+
+def _succeeded(ended: Ended) -> Ended:
+    if ended.state is JobState.SUCCEEDED:
+        return ended
+    raise _failure(ended.problem, HTTPStatus.CONFLICT, f"It ended as {ended.state}.")
+
+
+def _failure(problem: Problem | None, status: int, otherwise: str) -> MaquetteError:
     message = f"{problem.detail} {problem.remedy}".strip() if problem else otherwise
     return MaquetteError(message, status=problem.status if problem else status, problem=problem)

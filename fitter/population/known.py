@@ -1,6 +1,6 @@
 """What is known about somebody, and what is wrong with it if nobody is like that."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -11,9 +11,14 @@ from fitter.population.conditional_shape import ConditionedShape, Conditions, co
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
-from fitter.vocabulary.reach import OTHER_UNITS
 
 CENTIMETRES_PER_METRE = 100.0
+
+OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
+    "cm": ((100.0, "metres"), (0.1, "millimetres"), (2.54, "inches")),
+    "kg": ((0.453_592, "pounds"), (6.350_29, "stones"), (0.001, "grams")),
+}
+"""By unit: the factors that convert a value given in another one."""
 
 RAREST_SD = 5.0
 """One person in two million is farther from the population's mean in a measurement, and the model,

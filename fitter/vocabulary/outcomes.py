@@ -62,15 +62,3 @@ class Severity(StrEnum):
 
     BLOCKS = "blocks"
     HARMS = "harms"
-
-
-class SizedAs(StrEnum):
-    """How a size fits the most probable body in one measurement.
-
-    ``unsaid``: the chart says nothing of it for this size.
-    """
-
-    WITHIN = "within"
-    TOO_SMALL = "too_small"
-    TOO_LARGE = "too_large"
-    UNSAID = "unsaid"

@@ -4,6 +4,7 @@ import hashlib
 import re
 import time
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
@@ -84,7 +85,7 @@ async def accept(
             if check is not None:
                 await check()
             submission = await run_in_threadpool(_store, context, fit_id, inputs, key)
-    return _accepted(submission)
+    return accepted_job(submission)
 
 
 def idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
@@ -104,9 +105,10 @@ async def answer(
 
     Returns the fit in its state by then.
     """
-    wait_s = _preferred_wait_s(prefer)
+    wait_s = preferred_wait_s(prefer)
     if wait_s > 0:
-        fit = await _wait_for_end(context, fit, wait_s)
+        look = partial(context.jobs.job, fit.id)
+        fit = await wait_for_end(context, fit, look, wait_s=wait_s)
         response.headers["Preference-Applied"] = f"wait={wait_s}"
     response.headers["Location"] = fit_path(fit.id)
     if fit.state in ACTIVE:
@@ -148,7 +150,14 @@ def _store(context: ApiContext, fit_id: str, inputs: Inputs, key: Idempotency | 
     return submission
 
 
-def _accepted(submission: Submission) -> JobRecord:
+def accepted_job(submission: Submission) -> JobRecord:
+    """Return the job that was accepted, now or earlier.
+
+    Raises
+    ------
+    ProblemError
+        If none was.
+    """
     if submission.outcome is SubmitOutcome.QUEUE_FULL:
         raise ProblemError(
             problem(
@@ -175,7 +184,7 @@ def _accepted(submission: Submission) -> JobRecord:
                 remedy="Post it again.",
             )
         )
-    if submission.outcome is SubmitOutcome.PARENT_GONE:
+    if submission.outcome is SubmitOutcome.FIT_GONE:
         raise not_found(what="such fit any more")
     if submission.job is None:
         raise ProblemError(
@@ -189,21 +198,29 @@ def _accepted(submission: Submission) -> JobRecord:
     return submission.job
 
 
-def _preferred_wait_s(prefer: str | None) -> int:
+def preferred_wait_s(prefer: str | None) -> int:
+    """Return how long the caller prefers to wait for the end."""
     found = re.search(r"(?:^|[,;\s])wait\s*=\s*(\d{1,6})", prefer or "")
     return min(int(found[1]), MAX_WAIT_S) if found else 0
 
 
-async def _wait_for_end(context: ApiContext, fit: JobRecord, wait_s: int) -> JobRecord:
+async def wait_for_end(
+    context: ApiContext,
+    job: JobRecord,
+    look: Callable[[], JobRecord | None],
+    *,
+    wait_s: float,
+) -> JobRecord:
+    """Wait for the end of a job, which ``look`` looks at; returns it in its state by then."""
     deadline = time.monotonic() + wait_s
     while (
-        fit.state in ACTIVE
+        job.state in ACTIVE
         and not context.feed.is_ending
         and (remaining_s := deadline - time.monotonic()) > 0
     ):
-        await context.feed.wait_beyond(fit.id, fit.last_event, timeout_s=remaining_s)
-        latest = await run_in_threadpool(context.jobs.job, fit.id)
+        await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
+        latest = await run_in_threadpool(look)
         if latest is None:
             raise not_found(what="such fit any more")
-        fit = latest
-    return fit
+        job = latest
+    return job

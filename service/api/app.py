@@ -21,6 +21,7 @@ from service.api import (
     page,
     picture_questions,
     problems,
+    products,
     submissions,
 )
 from service.api.authentication import Authentication
@@ -55,6 +56,7 @@ MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 _ROUTERS: Final = (
     submissions.ROUTER,
     fits.ROUTER,
+    products.ROUTER,
     images.ROUTER,
     picture_questions.ROUTER,
     initial_poses.ROUTER,

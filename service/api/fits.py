@@ -167,10 +167,9 @@ def cancel_fit(fit_id: UUID, context: Context, response: Response) -> Fit:
 )
 def erase_fit(fit_id: UUID, context: Context) -> Response:
     """Stop the fit if it runs, and erase it with its pictures, results and products."""
-    scopes = context.jobs.erase(str(fit_id))
-    if not scopes:
+    if not context.jobs.erase(str(fit_id)):
         raise not_found(what="such fit")
-    erase_blobs(context.blobs, scopes)
+    erase_blobs(context.blobs, [str(fit_id)])
     return Response(status_code=204)
 
 

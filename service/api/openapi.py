@@ -12,12 +12,13 @@ from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
-from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.problems import Problem
+from api_schemas.products import ProductRequest
+from api_schemas.products.texture import TEXTURE_SIZES
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.webhooks import WebhookEvent
 from fitter.vocabulary.measurements import (
@@ -53,6 +54,7 @@ LICENCE: Final[Mapping[str, str]] = {"name": "Apache License 2.0", "identifier":
 
 TAGS: Final[Sequence[Mapping[str, str]]] = (
     {"name": "fits", "description": "Bodies fitted to one to six pictures, and their files."},
+    {"name": "products", "description": "Files that are made of a fit when they are asked for."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
     {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},
     {"name": "body models", "description": "The bodies that are fitted."},
@@ -283,6 +285,7 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
     if mode == "validation":
         return (
             FitRequest,
+            ProductRequest,
             BodyRequest,
             InitialPoseRequest,
             PointsRequest,

@@ -28,7 +28,7 @@ class Admission:
         repeated = self.earlier(connection, idempotency)
         if repeated is not None:
             return repeated
-        refused = self._no_room(connection)
+        refused = self.no_room(connection)
         return None if refused is None else Submission(outcome=refused, job=None)
 
     def earlier(
@@ -54,7 +54,8 @@ class Admission:
             return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
         return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
 
-    def _no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
+    def no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
+        """Return why no more is accepted; None if there is room."""
         waiting = JOBS.c.state == JobState.QUEUED.value
         everyone, ours = connection.execute(
             sa.select(

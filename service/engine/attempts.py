@@ -8,6 +8,7 @@ import json
 import logging
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
 import sqlalchemy as sa
@@ -272,11 +273,21 @@ class AttemptLog:
             )
 
 
-def result_to_json(attempt: int, result: AttemptResult) -> str:
-    """Write a result in the form kept in the checkpoint."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Computed:
+    """A result that has yet to be published: of which attempt, and where its files lie."""
+
+    attempt: int
+    scope: str
+    result: AttemptResult
+
+
+def computed_to_json(job: JobRecord, result: AttemptResult) -> str:
+    """Write the result of a job's attempt in the form kept in the checkpoint."""
     return json.dumps(
         {
-            "attempt": attempt,
+            "attempt": job.attempt,
+            "scope": job.scope,
             "ending": result.ending.value,
             "files": FILES.dump_python(result.files, mode="json"),
             "problem": result.problem.model_dump(mode="json") if result.problem else None,
@@ -285,14 +296,17 @@ def result_to_json(attempt: int, result: AttemptResult) -> str:
     )
 
 
-def result_from_json(text: str) -> tuple[int, AttemptResult]:
-    """Read a checkpoint: the attempt's number and its result."""
+def computed_from_json(text: str) -> Computed:
+    """Read a checkpoint."""
     values = json.loads(text)
-    return values["attempt"], AttemptResult(
-        ending=Ending(values["ending"]),
-        files=FILES.validate_json(json.dumps(values["files"])),
-        problem=None
-        if values["problem"] is None
-        else Problem.model_validate_json(json.dumps(values["problem"])),
-        stage_seconds=values.get("stage_seconds", {}),
+    told = values["problem"]
+    return Computed(
+        attempt=values["attempt"],
+        scope=values["scope"],
+        result=AttemptResult(
+            ending=Ending(values["ending"]),
+            files=FILES.validate_json(json.dumps(values["files"])),
+            problem=None if told is None else Problem.model_validate_json(json.dumps(told)),
+            stage_seconds=values["stage_seconds"],
+        ),
     )

@@ -19,7 +19,7 @@ from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
 
 from api_schemas.body_models import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
-from service.engine.attempts import AttemptLog, result_from_json, result_to_json
+from service.engine.attempts import AttemptLog, computed_from_json, computed_to_json
 from service.engine.availability import ABSENCES
 from service.engine.claims import Claims
 from service.engine.dbos_jobs import BODY_MODELS_FACT
@@ -225,7 +225,9 @@ class WorkerEngine:
         self._workflow = fit
 
     def _run(self, job_id: str, handler: AttemptHandler) -> str | None:
+        scope = job_id
         while (attempt := self._attempts.begin(job_id)) is not None:
+            scope = attempt.job.scope
             started = time.monotonic()
             with log_context(
                 job=job_id, attempt=str(attempt.job.attempt), request=attempt.job.request_id
@@ -243,22 +245,22 @@ class WorkerEngine:
             if result.ending is Ending.SUPERSEDED:
                 break
             if result.ending is not Ending.CRASHED:
-                return result_to_json(attempt.job.attempt, result)
+                return computed_to_json(attempt.job, result)
             self._attempts.count_crash(attempt)
-        self._erase_if_forgotten(job_id)
+        self._erase_if_forgotten(scope)
         return None
 
     def _publish(self, job_id: str, text: str) -> None:
-        number, result = result_from_json(text)
-        if self._attempts.end(job_id, number, result) is None:
-            self._erase_if_forgotten(job_id)
+        computed = computed_from_json(text)
+        if self._attempts.end(job_id, computed.attempt, computed.result) is None:
+            self._erase_if_forgotten(computed.scope)
 
-    def _erase_if_forgotten(self, job_id: str) -> None:
-        # The job may have been erased while its attempt was still writing results. If this fails,
+    def _erase_if_forgotten(self, scope: str) -> None:
+        # The fit may have been erased while an attempt was still writing results. If this fails,
         # the scope is still among those the sweep erases.
-        if not self._attempts.exists(job_id):
+        if not self._attempts.exists(scope):
             with contextlib.suppress(BlobsUnavailableError):
-                self._blobs.erase(job_id)
+                self._blobs.erase(scope)
 
     def _has_disk_space(self) -> bool:
         # Waiting jobs are safe, and running ones need the remaining space for their results.

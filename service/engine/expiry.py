@@ -8,7 +8,7 @@ lists its scope before it stores the first byte and removes it when the job is a
 
 import logging
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import sqlalchemy as sa
@@ -89,31 +89,30 @@ def take_out(connection: sa.Connection, scope: str) -> bool:
 def forget_job(
     connection: sa.Connection, job_id: str, *conditions: sa.ColumnElement[bool]
 ) -> Sequence[str]:
-    """Delete a job and what is derived from it, with their events, and list their scopes.
+    """Delete a fit and its products, and list the fit's scope, in which all their blobs are.
 
-    Returns the scopes; none if there was no such job.
+    Returns the ids of all that was deleted; none if there was no such fit.
     """
-    forgotten = sa.delete(JOBS).returning(JOBS.c.id, JOBS.c.state)
-    rows = connection.execute(forgotten.where(JOBS.c.id == job_id, *conditions)).all()
-    if not rows:
+    deleted = sa.delete(JOBS).returning(JOBS.c.id, JOBS.c.state)
+    fits = connection.execute(deleted.where(JOBS.c.id == job_id, *conditions)).all()
+    if not fits:
         return ()
-    # After the fit itself: a derivation that was being accepted is there by now, or never will be.
-    derived = connection.execute(forgotten.where(JOBS.c.parent_id == job_id)).all()
-    states = {row.id: row.state for row in (*rows, *derived)}
-    _enter_forgotten(connection, states)
-    return list(states)
+    # After the fit itself: a product that was being accepted is there by now, or never will be.
+    products = connection.execute(deleted.where(JOBS.c.parent_id == job_id)).all()
+    forgotten = {row.id: row.state for row in (*fits, *products)}
+    _enter_scope(connection, job_id, forgotten.values())
+    return list(forgotten)
 
 
-def _enter_forgotten(connection: sa.Connection, states: Mapping[str, str]) -> None:
-    """List the scopes of deleted jobs for erasure; ``states`` holds their states by id."""
-    now = time.time()
-    running = [each for each, state in states.items() if state == JobState.RUNNING.value]
-    enter_erasures(connection, running, due_at=now + LATE_WRITES_S)
-    enter_erasures(connection, [each for each in states if each not in running], due_at=now)
+def _enter_scope(connection: sa.Connection, scope: str, states: Iterable[str]) -> None:
+    """List the scope of a deleted fit for erasure; ``states`` are its own and its products'."""
+    may_be_written = JobState.RUNNING.value in states
+    due_at = time.time() + (LATE_WRITES_S if may_be_written else 0.0)
+    enter_erasures(connection, [scope], due_at=due_at)
 
 
 def expire_jobs(connection: sa.Connection, now: float) -> int:
-    """Forget the jobs that have expired, keeping only their ids; returns how many."""
+    """Forget the fits that have expired, keeping only their ids; returns how many."""
     ids = list(
         connection.execute(
             sa.select(JOBS.c.id)
@@ -125,26 +124,22 @@ def expire_jobs(connection: sa.Connection, now: float) -> int:
     )
     if not ids:
         return 0
-    rows = connection.execute(
+    fits = connection.execute(
         sa.delete(JOBS)
         .where(JOBS.c.id.in_(ids))
-        .returning(*(JOBS.c[name] for name in ("id", "tenant", "parent_id", "expires_at", "state")))
+        .returning(JOBS.c.id, JOBS.c.tenant, JOBS.c.expires_at)
+    ).all()
+    products = connection.execute(
+        sa.delete(JOBS).where(JOBS.c.parent_id.in_(ids)).returning(JOBS.c.parent_id, JOBS.c.state)
     ).all()
     connection.execute(
         sa.insert(TOMBSTONES),
-        [
-            {
-                "id": row.id,
-                "tenant": row.tenant,
-                "parent_id": row.parent_id,
-                "expired_at": row.expires_at,
-            }
-            for row in rows
-        ],
+        [{"id": fit.id, "tenant": fit.tenant, "expired_at": fit.expires_at} for fit in fits],
     )
-    # A derivation may still be running when its fit expires.
-    _enter_forgotten(connection, {row.id: row.state for row in rows})
-    return len(rows)
+    for fit in fits:
+        of_fit = (product.state for product in products if product.parent_id == fit.id)
+        _enter_scope(connection, fit.id, of_fit)
+    return len(fits)
 
 
 def expire_images(connection: sa.Connection, now: float) -> int:

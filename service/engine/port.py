@@ -10,7 +10,7 @@ from api_schemas.problems import Problem
 from api_schemas.results import ResultFile
 
 FIT: Final = "fit"
-"""The kind of jobs that are no derivations."""
+"""The kind of jobs that are no products."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,10 +51,25 @@ class NewJob:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NewProduct:
+    """A product to make; ``id`` says what of, the options and the part that came with them.
+
+    ``inputs`` are files of the fit and that part, by name. All blobs lie in the fit's scope.
+    """
+
+    id: str
+    kind: str
+    options: StoredBlob
+    inputs: Mapping[str, StoredBlob]
+    request_id: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class JobRecord:
     """A stored job; times are seconds since the epoch.
 
-    ``parent`` is the fit it is derived from, None for a fit. ``view`` is the picture that its stage
+    ``parent`` is the fit that a product is made of, None for a fit, and ``product`` says which of
+    that fit's products it is. ``view`` is the picture that its stage
     is about, where there are several. ``result_files`` are those of its result.
     """
 
@@ -62,6 +77,7 @@ class JobRecord:
     tenant: str
     kind: str
     parent: str | None
+    product: str | None
     state: JobState
     stage: str | None
     view: int | None
@@ -84,13 +100,22 @@ class JobRecord:
     webhook: StoredBlob | None
 
     @property
-    def files(self) -> Mapping[str, StoredBlob]:
-        """All that was sent, and all that came of it, by name."""
-        made = {
+    def scope(self) -> str:
+        """Where its blobs lie: those of a product beside its fit's."""
+        return self.parent or self.id
+
+    @property
+    def made(self) -> Mapping[str, StoredBlob]:
+        """All that came of it, by name."""
+        return {
             each.name: StoredBlob(digest=each.sha256, media_type=each.media_type)
             for each in self.result_files
         }
-        return {**self.inputs, **made}
+
+    @property
+    def files(self) -> Mapping[str, StoredBlob]:
+        """All that was sent, and all that came of it, by name."""
+        return {**self.inputs, **self.made}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +151,8 @@ class SubmitOutcome(StrEnum):
     """How a submission ended.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
-    considered abandoned and erased before it was submitted. ``PARENT_GONE``: the fit it is derived
-    from was erased meanwhile.
+    considered abandoned and erased before it was submitted. ``FIT_GONE``: the fit of a product was
+    erased meanwhile.
     """
 
     ACCEPTED = "accepted"
@@ -136,7 +161,7 @@ class SubmitOutcome(StrEnum):
     QUEUE_FULL = "queue_full"
     TENANT_FULL = "tenant_full"
     LOST = "lost"
-    PARENT_GONE = "parent_gone"
+    FIT_GONE = "fit_gone"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -33,6 +33,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         tenant=values["tenant"],
         kind=values["kind"],
         parent=values["parent_id"],
+        product=values["product"],
         state=JobState(values["state"]),
         stage=values["stage"],
         view=values["view"],
@@ -72,7 +73,12 @@ def append_event(
     kind: EventKind,
     energies: Mapping[str, float] | None = None,
 ) -> None:
-    """Append an event with the job's current state, in the transaction that changed it."""
+    """Append an event with the fit's current state, in the transaction that changed it.
+
+    Products have none: what is asked of them is where they stand.
+    """
+    if job.parent is not None:
+        return
     data = EventData(
         state=job.state,
         stage=job.stage,
@@ -125,15 +131,14 @@ def end_job(
     """End a job like :func:`move_job`; it expires ``retention_s`` from now.
 
     If its creation is later than now, it expires ``retention_s`` from then: a clock that has been
-    set back must not make the job expire the moment it is corrected. A derivation expires when what
-    it is made of does, as recorded when it was accepted. ``notify`` has its end
-    told, in the same transaction, if somebody asked for that.
+    set back must not make the job expire the moment it is corrected. A product goes with its fit.
+    ``notify`` has its end told, in the same transaction, if somebody asked for that.
     """
     now = time.time()
     latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)
     changes = {
         "finished_at": now,
-        "expires_at": sa.func.coalesce(JOBS.c.expires_at, latest + retention_s),
+        "expires_at": sa.case((JOBS.c.parent_id.is_(None), latest + retention_s)),
     }
     job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
     if job is not None:

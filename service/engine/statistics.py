@@ -25,7 +25,7 @@ RUNNING: Final = "running"
 def count_ending(connection: sa.Connection, job: JobRecord) -> None:
     """Count a job that has just ended, and how long it waited and ran.
 
-    Running times of derivations are counted by kind, separately from those of fits.
+    Running times of products are counted by kind, separately from those of fits.
     """
     insert = insert_or_update(connection, OUTCOMES).values(state=job.state.value, jobs=1)
     connection.execute(

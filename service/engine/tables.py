@@ -14,6 +14,7 @@ JOBS = sa.Table(
     sa.Column("tenant", sa.String(64), nullable=False),
     sa.Column("kind", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
+    sa.Column("product", sa.String(32)),
     sa.Column("pictures", sa.Integer, nullable=False),
     sa.Column("label", LABEL),
     sa.Column("turn", sa.Integer, nullable=False),
@@ -40,17 +41,17 @@ JOBS = sa.Table(
     sa.Column("webhook_target", sa.String(64)),
     sa.Column("worker_deaths", sa.Integer),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
+    sa.UniqueConstraint("parent_id", "product", name="maquette_jobs_product"),
     sa.Index("maquette_jobs_newest", "tenant", "parent_id", "created_at", "id"),
     sa.Index("maquette_jobs_label", "tenant", "label", "created_at", "id"),
-    sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
 )
-"""Fits and derivations; a derivation names in ``parent_id`` the fit it is made of. ``inputs`` are
-blobs in the job's own scope, by name, as JSON, ``pictures`` of them pictures of a person;
-``webhook_target`` is the digest of another, which holds whom to notify and the secret to sign
-with. It is not in the database, because databases keep what was deleted in dead rows, logs and
-backups. ``turn`` says when it is begun (:mod:`service.engine.turns`). ``claimed_by`` is the
+"""Fits and products; a product names in ``parent_id`` the fit it is made of, and in ``product``
+what of it. ``inputs`` are blobs by name, as JSON, in the fit's scope, ``pictures`` of them pictures
+of a person; ``webhook_target`` is the digest of another, which holds whom to notify and the secret
+to sign with. It is not in the database, because databases keep what was deleted in dead rows, logs
+and backups. ``turn`` says when it is begun (:mod:`service.engine.turns`). ``claimed_by`` is the
 worker that runs the job or is about to (:mod:`service.engine.claims`); ``worker_deaths`` counts
 those that died over it, and is None until one did."""
 
@@ -101,11 +102,10 @@ TOMBSTONES = sa.Table(
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
-    sa.Column("parent_id", sa.String(36)),
     sa.Column("expired_at", sa.Double, nullable=False),
     sa.Index("maquette_tombstones_age", "expired_at"),
 )
-"""Ids of jobs that have expired: nothing else is kept of them."""
+"""Ids of fits that have expired: nothing else is kept of them."""
 
 API_KEYS = sa.Table(
     "maquette_api_keys",

@@ -30,6 +30,7 @@ from service.engine.port import (
     Submission,
     SubmitOutcome,
 )
+from service.engine.products import FitProducts
 from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.tables import EVENTS, JOBS, TOMBSTONES
 from service.engine.transactions import read_then_write
@@ -39,11 +40,11 @@ LOG: Final = logging.getLogger(__name__)
 
 
 class TenantJobs:
-    """The fits or the scans of one tenant, or the derivations of one of them.
+    """The fits of one tenant.
 
-    Other jobs can be neither seen nor touched through it. Every method but ``derivations`` may
-    raise :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` if
-    it has expired.
+    Others can be neither seen nor touched through it. Every method but ``products`` may raise
+    :class:`EngineUnavailableError`; those that name a fit raise :class:`JobExpiredError` if it has
+    expired.
     """
 
     def __init__(
@@ -53,25 +54,17 @@ class TenantJobs:
         client: DBOSClient,
         admission: Admission,
         retention_s: float,
-        parent: str | None = None,
     ) -> None:
         self._tenant = admission.tenant
-        self._parent = parent
         self._database = database
         self._client = client
         self._admission = admission
         self._retention_s = retention_s
         self._notices = Notices(database)
 
-    def derivations(self, parent_id: str) -> "TenantJobs":
-        """Return the jobs derived from a fit of this tenant; they are erased with it."""
-        return TenantJobs(
-            database=self._database,
-            client=self._client,
-            admission=self._admission,
-            retention_s=self._retention_s,
-            parent=parent_id,
-        )
+    def products(self, fit_id: str) -> FitProducts:
+        """Return the products of a fit of this tenant; they are erased with it."""
+        return FitProducts(fit_id, database=self._database, admission=self._admission)
 
     @available
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
@@ -104,13 +97,10 @@ class TenantJobs:
                 answered = self._admission.answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
-                expires_at = self._parents_end(connection)
-                if self._parent is not None and expires_at is None:
-                    return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
                     return Submission(outcome=SubmitOutcome.LOST, job=None)
-                turn = turn_of_next_job(connection, tenant=self._tenant)
-                record = self._insert(connection, job, turn=turn, expires_at=expires_at)
+                turn = turn_of_next_job(connection, tenant=self._tenant, is_product=False)
+                record = self._insert(connection, job, turn=turn)
                 return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
         except IntegrityError:
             # Two requests with the same new key raced; the other one is stored by now.
@@ -190,11 +180,11 @@ class TenantJobs:
         return canceled
 
     @available
-    def erase(self, job_id: str) -> Sequence[str]:
-        """Stop a job and what is derived from it, and forget them with events and checkpoints.
+    def erase(self, job_id: str) -> bool:
+        """Stop a fit and its products, and forget them; returns whether there was such a fit.
 
-        Returns the scopes of their blobs, none if there was no such job. The caller should erase
-        them; if it does not get to it, the sweep will. A running attempt finds itself superseded.
+        The caller should erase its scope; if it does not get to it, the sweep will. A running
+        attempt finds itself superseded.
         """
         forgotten = self._forget(job_id)
         if forgotten:
@@ -203,7 +193,7 @@ class TenantJobs:
             except ABSENCES as error:
                 cause = getattr(error, "orig", error)
                 LOG.warning("The sweep comes to what is left of a job (%s).", cause)
-        return forgotten
+        return bool(forgotten)
 
     def _forget(self, job_id: str) -> Sequence[str]:
         with self._database.begin() as connection:
@@ -249,30 +239,11 @@ class TenantJobs:
     def _ours(self) -> tuple[sa.ColumnElement[bool], ...]:
         return (
             JOBS.c.tenant == self._tenant,
-            JOBS.c.parent_id == self._parent,
+            JOBS.c.parent_id.is_(None),
         )
 
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
-
-    def _parents_end(self, connection: sa.Connection) -> float | None:
-        """When the fit to derive from expires; None if it is gone or none is needed.
-
-        Its record is locked until the end of the transaction, which must be one of
-        :func:`read_then_write`, so that it cannot be erased meanwhile.
-        """
-        if self._parent is None:
-            return None
-        return connection.execute(
-            sa.select(JOBS.c.expires_at)
-            .where(
-                JOBS.c.id == self._parent,
-                JOBS.c.tenant == self._tenant,
-                JOBS.c.parent_id.is_(None),
-                JOBS.c.expires_at > time.time(),
-            )
-            .with_for_update()
-        ).scalar_one_or_none()
 
     def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
         row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
@@ -285,16 +256,13 @@ class TenantJobs:
             sa.select(TOMBSTONES.c.expired_at).where(
                 TOMBSTONES.c.id == job_id,
                 TOMBSTONES.c.tenant == self._tenant,
-                TOMBSTONES.c.parent_id == self._parent,
             )
         ).scalar_one_or_none()
         if expired_at is not None:
             raise JobExpiredError(expired_at)
         return None
 
-    def _insert(
-        self, connection: sa.Connection, job: NewJob, *, turn: int, expires_at: float | None
-    ) -> JobRecord:
+    def _insert(self, connection: sa.Connection, job: NewJob, *, turn: int) -> JobRecord:
         again = job.idempotency
         row = (
             connection.execute(
@@ -303,7 +271,6 @@ class TenantJobs:
                     id=job.id,
                     tenant=self._tenant,
                     kind=job.kind,
-                    parent_id=self._parent,
                     pictures=job.pictures,
                     label=job.label,
                     turn=turn,
@@ -313,7 +280,6 @@ class TenantJobs:
                     crashes=0,
                     cancel_requested=False,
                     created_at=time.time(),
-                    expires_at=expires_at,
                     options_digest=job.options.digest,
                     inputs=INPUTS.dump_json(dict(job.inputs)).decode(),
                     files="[]",

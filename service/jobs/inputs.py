@@ -20,7 +20,7 @@ OVERLAY: Final = "overlay.png"
 BODY_POSED: Final = "body_posed.glb"
 
 CLIP: Final = "bvh"
-"""A motion sent with the request for a derivation."""
+"""A motion sent with the request for a product."""
 
 TEXTURE: Final = "texture"
 """A painted atlas sent with the request."""
@@ -59,3 +59,11 @@ def pictures_of(files: Mapping[str, Content]) -> tuple[SentPicture[Content], ...
         SentPicture(files[of_view(number, IMAGE)], files.get(of_view(number, MASK)))
         for number in numbers
     )
+
+
+def product_inputs(files: Mapping[str, Content]) -> dict[str, Content]:
+    """The files of a fit that products are made of, whatever their kind."""
+    of_first = (of_view(0, name) for name in (IMAGE, SEGMENTATION))
+    overlays = (of_view(number, OVERLAY) for number in range(len(pictures_of(files))))
+    names = (PERSON, RESULT, BODY, *of_first, *overlays)
+    return {name: files[name] for name in names if name in files}

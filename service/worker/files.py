@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from pathlib import PurePath
 from typing import Final
 
-from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.results import FitResult, ResultFile
 from service.jobs.inputs import RESULT
 
@@ -15,6 +14,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".jpg": "image/jpeg",
     ".json": "application/json",
     ".csv": "text/csv",
+    ".html": "text/html",
     ".npz": "application/zip",
     ".webp": "image/webp",
 }
@@ -30,9 +30,7 @@ def describe_file(name: str, content: bytes, *, digest: str | None = None) -> Re
     )
 
 
-def with_result_document(
-    result: FitResult | DerivedFiles, files: Mapping[str, bytes]
-) -> dict[str, bytes]:
+def with_result_document(result: FitResult, files: Mapping[str, bytes]) -> dict[str, bytes]:
     """Add ``result.json``, which lists all the other files."""
     listed = tuple(describe_file(name, content) for name, content in sorted(files.items()))
     document = result.model_copy(update={"files": listed}).model_dump_json(indent=1).encode()

@@ -10,7 +10,15 @@ from pydantic import ValidationError
 
 from api_schemas.results import ResultFile
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
+from service.engine.port import (
+    FIT,
+    Attempt,
+    AttemptResult,
+    Directive,
+    Ending,
+    JobRecord,
+    Report,
+)
 from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
 from service.numerics.messages import (
     DoneMessage,
@@ -34,7 +42,7 @@ from service.worker.endings import (
     too_slow,
 )
 from service.worker.files import describe_file
-from service.worker.tasks import DERIVATION, OPTIONS, SECONDS, STAGE_SECONDS
+from service.worker.tasks import OPTIONS, PRODUCT, SECONDS, STAGE_SECONDS
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -99,7 +107,7 @@ class JobRunner:
             return STOPPED[directive]
         return AttemptResult(
             ending=Ending.SUCCEEDED,
-            files=self._store(attempt.job.id, computed.files),
+            files=self._store(attempt.job.scope, computed.files),
             stage_seconds=computed.stage_seconds,
         )
 
@@ -122,13 +130,13 @@ class JobRunner:
     def _give(self, child: Child, job: JobRecord) -> None:
         stored = {OPTIONS: job.options, **job.inputs}
         task = TaskMessage(
-            task=job.kind if job.parent is None else DERIVATION,
+            task=FIT if job.parent is None else PRODUCT,
             parts=tuple(stored),
             log_context=dict(current_log_context()),
         )
         read = retry_while_storage_is_away(self._blobs.get)
         # One after the other, and sent at once: together they may be large.
-        child.give(task, (read(job.id, part.digest) for part in stored.values()))
+        child.give(task, (read(job.scope, part.digest) for part in stored.values()))
 
     def _timed_out(self) -> AttemptResult:
         return AttemptResult(

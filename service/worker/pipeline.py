@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from typing import Final
 
-from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.products.base import ProductResult
 from fitter.applications.previews import View, preview
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import result_files, tapes_json
@@ -15,15 +14,16 @@ from fitter.result import FitResult
 from service.engine.port import Report
 from service.jobs.inputs import BODY, PERSON, TAPES
 from service.worker import translate
-from service.worker.derivers import load_deriver
 from service.worker.fit_results import fit_result
 from service.worker.pipeline_port import (
-    DerivationInput,
-    DerivationOutput,
+    Made,
     PipelineInput,
     PipelineOutput,
+    ProductInput,
     UnusableInputError,
 )
+from service.worker.products import maker_of
+from service.worker.products.finished_fit import finished_fit
 from service.worker.tasks import job_tasks
 
 _SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
@@ -58,22 +58,19 @@ def _from_all_round(found: FitResult) -> bytes:
     return png(preview(views, found.triangles))
 
 
-def derive(
-    job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
-) -> DerivationOutput[DerivedFiles]:
-    """Derive something from a fit; see :class:`service.worker.pipeline_port.Pipeline`."""
-    kind = job.options.kind
+def make(product: ProductInput, observe: Callable[[Report], None]) -> Made[ProductResult]:
+    """Make a product of a fit; see :class:`service.worker.pipeline_port.Pipeline`."""
+    kind = product.options.kind
 
     def report(progress: float) -> None:
         observe(Report(stage=kind, progress=progress))
 
     report(0.0)
     try:
-        return load_deriver(kind)(job, report)
+        fit = finished_fit(product.files, max_pixels=product.max_pixels, models=product.models)
+        return maker_of(kind)(fit, product.options, report)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
-    except DetectorUnavailableError as error:
-        raise UnusableInputError(translate.detector_problem(error)) from error
 
 
-TASKS: Final = job_tasks(run, derive)
+TASKS: Final = job_tasks(run, make)

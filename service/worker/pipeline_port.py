@@ -1,6 +1,6 @@
 """What a child process runs: a pipeline from a request to a result and its files.
 
-A fit goes through ``run``, what is derived from one through ``derive``.
+A fit goes through ``run``, a product of one through ``make``.
 
 The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
 is imported in the child process only: the worker itself loads no numerics.
@@ -12,17 +12,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, Protocol, TypeVar, cast
 
-from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.fit import FitRequest
 from api_schemas.problems import FieldProblem, field_problem
+from api_schemas.products import AnyProductOptions
+from api_schemas.products.base import ProductResult
 from api_schemas.results import FitResult
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.numerics.tasks import ProblemError
 
-Options_co = TypeVar("Options_co", bound=AnyDerivationOptions, covariant=True)
-Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
+Result_co = TypeVar("Result_co", bound=ProductResult, covariant=True)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,19 +48,18 @@ class PipelineOutput:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DerivationInput(Generic[Options_co]):
-    """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`)."""
+class ProductInput:
+    """What is to be made, and what of: the fit's files, and the part that came along, by name."""
 
-    options: Options_co
-    inputs: Mapping[str, bytes]
+    options: AnyProductOptions
+    files: Mapping[str, bytes]
     max_pixels: int
     models: Path | None = None
-    detector: Path | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DerivationOutput(Generic[Result_co]):
-    """The result, whose list of files is still empty, and the files by name."""
+class Made(Generic[Result_co]):
+    """What there is to say of a product, and its files by name."""
 
     result: Result_co
     files: Mapping[str, bytes]
@@ -88,10 +86,8 @@ class Pipeline(Protocol):
         """
         ...
 
-    def derive(
-        self, job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
-    ) -> DerivationOutput[DerivedFiles]:
-        """Derive something from a fit; raises as ``run`` does."""
+    def make(self, product: ProductInput, observe: Callable[[Report], None]) -> Made[ProductResult]:
+        """Make a product of a fit; raises as ``run`` does."""
         ...
 
 

@@ -5,23 +5,17 @@ from typing import Final
 
 from pydantic import TypeAdapter
 
-from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.derivations import DerivationRequest
 from api_schemas.fit import FitRequest
+from api_schemas.products import ProductRequest
+from api_schemas.products.base import ProductResult
 from service.engine.port import FIT
-from service.jobs.inputs import pictures_of
+from service.jobs.inputs import RESULT, pictures_of
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 from service.worker.files import with_result_document
-from service.worker.pipeline_port import (
-    DerivationInput,
-    DerivationOutput,
-    PipelineInput,
-    PipelineOutput,
-)
+from service.worker.pipeline_port import Made, PipelineInput, PipelineOutput, ProductInput
 
-DERIVATION: Final = "derivation"
-"""The task of every job that derives from a fit."""
+PRODUCT: Final = "product"
+"""The task of every product of a fit."""
 
 OPTIONS: Final = "options"
 """The part that says what is asked for."""
@@ -32,10 +26,10 @@ STAGE_SECONDS: Final = "stage-seconds"
 SECONDS: Final[TypeAdapter[Mapping[str, float]]] = TypeAdapter(Mapping[str, float])
 
 Run = Callable[[PipelineInput, Observe], PipelineOutput]
-Derive = Callable[[DerivationInput[AnyDerivationOptions], Observe], DerivationOutput[DerivedFiles]]
+Make = Callable[[ProductInput, Observe], Made[ProductResult]]
 
 
-def job_tasks(run: Run, derive: Derive) -> Mapping[str, Task]:
+def job_tasks(run: Run, make: Make) -> Mapping[str, Task]:
     """The table of a pipeline (:class:`service.worker.pipeline_port.Pipeline`)."""
 
     def fit(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
@@ -44,11 +38,11 @@ def job_tasks(run: Run, derive: Derive) -> Mapping[str, Task]:
         files = with_result_document(fitted.result, fitted.files)
         return {**files, STAGE_SECONDS: seconds}
 
-    def derivation(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
-        derived = derive(derivation_input(setup, parts), observe)
-        return with_result_document(derived.result, derived.files)
+    def product(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+        made = make(product_input(setup, parts), observe)
+        return {**made.files, RESULT: made.result.model_dump_json().encode()}
 
-    return {FIT: fit, DERIVATION: derivation}
+    return {FIT: fit, PRODUCT: product}
 
 
 def fit_input(setup: ChildSetup, parts: Parts) -> PipelineInput:
@@ -62,12 +56,11 @@ def fit_input(setup: ChildSetup, parts: Parts) -> PipelineInput:
     )
 
 
-def derivation_input(setup: ChildSetup, parts: Parts) -> DerivationInput[AnyDerivationOptions]:
+def product_input(setup: ChildSetup, parts: Parts) -> ProductInput:
     """What a fit left, and what came with the request."""
-    return DerivationInput(
-        options=DerivationRequest.model_validate_json(parts[OPTIONS]).root,
-        inputs={name: part for name, part in parts.items() if name != OPTIONS},
+    return ProductInput(
+        options=ProductRequest.model_validate_json(parts[OPTIONS]).root,
+        files={name: part for name, part in parts.items() if name != OPTIONS},
         max_pixels=setup.max_pixels,
         models=setup.models,
-        detector=setup.detector,
     )

@@ -1,4 +1,4 @@
-"""``python -m tests.chaos``: real fits and derivations while processes die or what they need does.
+"""``python -m tests.chaos``: real fits and products while processes die or what they need does.
 
 Without ``--fault``, processes are killed at random, on SQLite and on Postgres (a database of its
 own on 127.0.0.1:5432). With it, the database server is killed, object storage refuses, a worker's
@@ -18,7 +18,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from tests.chaos.caller import Derived, Task
+from tests.chaos.caller import Product, Task
 from tests.chaos.outages.scenes import FAULTS
 from tests.chaos.outages.trial import tried
 from tests.chaos.reference import Outcome, references
@@ -30,13 +30,13 @@ from tests.submissions import small_submissions
 
 DATABASES = ("sqlite", "postgres")
 PICTURES = 6
-DERIVED = (
-    Derived(request={"kind": "pose", "pose": "sitting"}),
-    Derived(request={"kind": "texture", "size": 512}),
-    Derived(request={"kind": "caricature", "factor": 1.5}),
-    Derived(request={"kind": "animation", "duration_s": 0.2}),
-    Derived(request={"kind": "pose", "pose": "standing"}),
-    Derived(request={"kind": "body_composition"}),
+PRODUCTS = (
+    {"kind": "pose", "pose": "sitting"},
+    {"kind": "texture", "size": 512},
+    {"kind": "caricature", "factor": 1.5},
+    {"kind": "animation", "duration_s": 0.2},
+    {"kind": "print"},
+    {"kind": "composition"},
 )
 SHARES = {
     Kind.API: 0.25,
@@ -53,8 +53,10 @@ def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     fits = small_submissions(PICTURES)
-    tasks = [task for pair in zip(fits, DERIVED, strict=True) for task in pair]
-    return _faults(options, tasks) if options.fault else _kills(options, tasks)
+    if options.fault:
+        return _faults(options, fits)
+    products = [Product(of=fits[0], request=each) for each in PRODUCTS]
+    return _kills(options, [task for pair in zip(fits, products, strict=True) for task in pair])
 
 
 def _faults(options: argparse.Namespace, tasks: Sequence[Task]) -> int:

@@ -20,23 +20,20 @@ class NoAnswerError(Exception):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Derived:
-    """Something to be derived from the fit that all derivations of a run begin with."""
+class Product:
+    """A product of a fit of its own, so that it is made each time."""
 
+    of: Submission
     request: Mapping[str, object]
 
 
-Task = Submission | Derived
+Task = Submission | Product
 
 
 class Caller:
-    """One caller with connections of its own.
+    """One caller with connections of its own."""
 
-    ``parent`` is the path of the fit that derivations are derived from.
-    """
-
-    def __init__(self, address: str, *, parent: str | None = None) -> None:
-        self.parent = parent
+    def __init__(self, address: str) -> None:
         self._client = httpx.Client(base_url=address, timeout=30.0)
         self.is_posting = False
         self.repeated_posts = 0
@@ -47,19 +44,27 @@ class Caller:
         self._client.close()
 
     def post(self, task: Task, *, key: str) -> str:
-        """Submit, however often it takes; returns the job's path."""
-        headers = {"Idempotency-Key": key}
+        """Submit, however often it takes; returns the path of the fit or the product."""
+        if isinstance(task, Product):
+            fit = self.post(task.of, key=key)
+            ended = self.ended(fit, within_s=PATIENCE_S)
+            assert ended is not None, fit
+            assert ended["state"] == "succeeded", ended
+            return self._post(f"{fit}/products", json=dict(task.request))
+        return self._post("/v1/fits", files=task.files, headers={"Idempotency-Key": key})
+
+    def _post(self, path: str, **sent: Any) -> str:
         for attempt in self._attempts():
             self.repeated_posts += attempt > 0
             self.is_posting = True
             try:
-                answer = self._posted(task, headers)
+                answer = self._client.post(path, **sent)
             except httpx.TransportError:
                 continue
             finally:
                 self.is_posting = False
             if answer.status_code != httpx.codes.SERVICE_UNAVAILABLE:
-                assert answer.status_code == httpx.codes.ACCEPTED, answer.text
+                assert answer.is_success, answer.text
                 return answer.headers["Location"]
         raise NoAnswerError
 
@@ -85,26 +90,13 @@ class Caller:
             time.sleep(PAUSE_S)
         return job
 
-    def jobs(self) -> list[dict[str, Any]]:
-        """All jobs there are."""
-        found = self._listed("/v1/fits", "jobs")
-        for fit in list(found):
-            if fit["links"]["derivations"] is not None:
-                found += self._listed(fit["links"]["derivations"], "derivations")
-        return found
-
-    def _posted(self, task: Task, headers: Mapping[str, str]) -> httpx.Response:
-        if isinstance(task, Submission):
-            return self._client.post("/v1/fits", files=task.files, headers=headers)
-        path = f"{self.parent}/derivations"
-        return self._client.post(path, json=dict(task.request), headers=headers)
-
-    def _listed(self, path: str, called: str) -> list[dict[str, Any]]:
+    def fits(self) -> list[dict[str, Any]]:
+        """All fits there are."""
         found: list[dict[str, Any]] = []
-        following: str | None = f"{path}?limit=200"
+        following: str | None = "/v1/fits?limit=200"
         while following is not None:
             page = self.get(following).raise_for_status().json()
-            found += page[called]
+            found += page["fits"]
             following = page["next"]
         return found
 

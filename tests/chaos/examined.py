@@ -39,6 +39,16 @@ def examine(caller: Caller, path: str, expected: Outcome) -> Examined | None:
         return None
     job = answer.json()
     has_ended = job["state"] not in ACTIVE
+    if "attempt" not in job:
+        # A product, which has no events.
+        return Examined(
+            ends=int(has_ended),
+            attempts=1,
+            pause_s=0.0,
+            state=job["state"],
+            outcome=outcome(caller, job) if job["state"] == "succeeded" else None,
+            expected=expected,
+        )
     told = events(caller.get(f"{path}/events").text) if has_ended else []
     is_last = [kind == "end" for kind, _ in told]
     return Examined(

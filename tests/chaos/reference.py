@@ -34,33 +34,32 @@ class Outcome:
 
 
 def references(deployment: Deployment, tasks: Sequence[Task]) -> list[Outcome]:
-    """Do each once, on a service that is left in peace.
-
-    The first is a fit, from which what is to be derived is derived.
-    """
+    """Do each once, on a service that is left in peace."""
     caller = Caller(deployment.address)
     try:
         deployment.start()
-        first = caller.parent = caller.post(tasks[0], key="reference")
-        _ended(caller, first)
-        paths = [caller.post(each, key=f"reference-{n}") for n, each in enumerate(tasks[1:])]
-        return [outcome(caller, _ended(caller, path)) for path in (first, *paths)]
+        paths = [caller.post(each, key=f"reference-{n}") for n, each in enumerate(tasks)]
+        return [outcome(caller, _ended(caller, path)) for path in paths]
     finally:
         caller.close()
         deployment.end()
 
 
 def outcome(caller: Caller, job: Mapping[str, Any]) -> Outcome:
-    """Fetch everything a job that succeeded has left."""
-    result = json.loads(caller.get(job["links"]["result"]).raise_for_status().content)
+    """Fetch everything a fit or a product that succeeded has left."""
+    links = job["links"]
     files = {
         name: hashlib.sha256(caller.get(path).raise_for_status().content).hexdigest()
-        for name, path in job["links"]["files"].items()
+        for name, path in links["files"].items()
         if name != RESULT
     }
-    listed = {artifact["name"]: artifact["sha256"] for artifact in result.pop("artifacts")}
+    if "result" in job:
+        return Outcome(files=files, result=job["result"], is_whole=bool(files))
+    result = json.loads(caller.get(links["result"]).raise_for_status().content)
+    listed = {file["name"]: file["sha256"] for file in result.pop("files")}
     result.pop("stage_seconds", None)
-    return Outcome(files=files, result=result, is_whole=files == listed)
+    made = {name: digest for name, digest in files.items() if name in listed}
+    return Outcome(files=made, result=result, is_whole=made == listed)
 
 
 def _ended(caller: Caller, path: str) -> dict[str, Any]:

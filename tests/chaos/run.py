@@ -56,16 +56,11 @@ class Course:
 
 
 def disturb(deployment: Deployment, tasks: Sequence[Task], plan: Plan) -> Course:
-    """Submit ``plan.jobs`` jobs and wait for their ends while processes are killed.
-
-    The first task is a fit, made once in peace: from that one the run's derivations are derived.
-    """
+    """Submit ``plan.jobs`` jobs and wait for their ends while processes are killed."""
     course = Course()
     began = time.monotonic()
-    parent = _fitted(deployment, tasks[0], plan)
-    numbers = itertools.count(1)
-    callers = [Caller(deployment.address, parent=parent.path) for _ in range(CALLERS)]
-    course.accepted.append(parent)
+    numbers = itertools.count()
+    callers = [Caller(deployment.address) for _ in range(CALLERS)]
     threads = [
         threading.Thread(target=_submit, args=(caller, tasks, plan, numbers, course))
         for caller in callers
@@ -82,18 +77,6 @@ def disturb(deployment: Deployment, tasks: Sequence[Task], plan: Plan) -> Course
         caller.close()
     course.seconds = time.monotonic() - began
     return course
-
-
-def _fitted(deployment: Deployment, task: Task, plan: Plan) -> Accepted:
-    caller, key = Caller(deployment.address), f"chaos-{plan.seed}-0"
-    try:
-        path = caller.post(task, key=key)
-        job = caller.ended(path, within_s=ENDED_WITHIN_S)
-    finally:
-        caller.close()
-    assert job is not None, f"{path} did not end"
-    assert job["state"] == "succeeded", job
-    return Accepted(key=key, path=path, which=0)
 
 
 def _submit(

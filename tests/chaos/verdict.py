@@ -84,7 +84,7 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
     """Ask the service, stop it, and look at what is left."""
     caller = Caller(deployment.address)
     try:
-        listed = caller.jobs()
+        listed = caller.fits()
         examined = [examine(caller, each.path, expected[each.which]) for each in course.accepted]
     finally:
         caller.close()
@@ -96,6 +96,7 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
     wait_for(lambda: not deployment.processes(), within_s=LEFT_WITHIN_S)
     found = [each for each in examined if each is not None]
     states = Counter(each.state for each in found)
+    fits = {each.path.partition("/products")[0] for each in course.accepted}
     result = Verdict(
         jobs=len(course.accepted),
         kills=dict(course.kills),
@@ -107,7 +108,7 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
         seconds=course.seconds,
         identical=sum(each.is_identical for each in found),
         lost=sum(each is None or each.state in ACTIVE for each in examined),
-        duplicated=len(listed) - len({each.path for each in course.accepted}),
+        duplicated=len(listed) - len(fits),
         not_ended_once=sum(each.ends != 1 for each in found),
         wrong=sum(each.is_wrong for each in found),
         ended_otherwise={state: count for state, count in states.items() if state != "succeeded"},

@@ -34,6 +34,23 @@ from tests.integration.service.receiver import Receiver, receiving
 RECORDED = Path(service.api.__file__).parent / "examples.json"
 
 WEBHOOK = {"url": SHOWN, "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"}
+PRODUCTS: Mapping[str, Mapping[str, Any]] = {
+    "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
+    "pose": {
+        "kind": "pose",
+        "pose": "standing",
+        "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
+    },
+    "walk": {"kind": "animation"},
+    "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
+    "page": {"kind": "print"},
+    "size": {
+        "kind": "size",
+        "chart_csv": "size,chest_girth,waist_girth_navel\nS,90-94,76-80\nM,94-98,80-84\n",
+        "ease": {"waist_girth_navel": 2},
+    },
+    "body-fat": {"kind": "composition", "age_years": 34},
+}
 GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
 
 
@@ -123,6 +140,13 @@ def _fits(
     recorder.ask("as-understood", "GET", links["request"])
     recorder.ask("sample", "GET", links["result"])
     recorder.ask("first-page", "GET", f"{FITS}?limit=1")
+    recorder.ask("queued", "POST", links["products"], json={"kind": "pose", "pose": "sitting"})
+    for name, each in PRODUCTS.items():
+        made = recorder.ask(
+            name, "POST", links["products"], asked_as=name, json=each, headers=waiting
+        )
+        assert made.json()["state"] == "succeeded", made.text
+    recorder.ask("succeeded", "GET", made.json()["links"]["self"])
     failed = recorder.ask("", "POST", FITS, json=failing).headers["Location"]
     recorder.until_ended(failed)
     recorder.ask("failed", "GET", failed)

@@ -82,7 +82,7 @@ def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
 ):
     posed, triangles = mesh_of(client.get(f"{fit['links']['self']}/files/body_posed.glb").content)
     asked = {"kind": "texture", "colours": "picture", "size": 512}
-    job = ended_job(client, client.post(fit["links"]["derivations"], json=asked))
+    job = ended_job(client, client.post(fit["links"]["products"], json=asked))
     for name in ("body_textured.obj", "body_textured.mtl", "texture.png", "body_textured.usdz"):
         answer = client.get(f"{job['links']['self']}/files/{name}").raise_for_status()
         (tmp_path / name).write_bytes(answer.content)
@@ -95,7 +95,7 @@ def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
 
 
 def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client, fit):
-    job = ended_job(client, client.post(fit["links"]["derivations"], json={"kind": "animation"}))
+    job = ended_job(client, client.post(fit["links"]["products"], json={"kind": "animation"}))
     files = f"{job['links']['self']}/files"
     read = {
         name: plyfile.PlyData.read(io.BytesIO(client.get(f"{files}/{name}.ply").content))["vertex"]
@@ -103,7 +103,7 @@ def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client,
     }
     exact, skinned = (np.column_stack([vertex[axis] for axis in "xyz"]) for vertex in read.values())
     assert exact[:, 1].min() == pytest.approx(0.0, abs=0.01)
-    result = client.get(job["links"]["result"]).json()
+    result = job["result"]
     away = np.linalg.norm(exact - skinned, axis=1).max()
     assert 1e3 * away <= result["skin_largest_error_mm"] + 0.1
 

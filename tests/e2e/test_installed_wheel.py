@@ -97,16 +97,16 @@ def test_the_page_comes_with_its_scripts_samples_and_the_documentation(service: 
     assert service.get("/openapi.json").json() == json.loads(EXPORTED.read_text())
 
 
-def test_a_sample_of_the_page_is_fitted_over_http_and_posed(service: httpx.Client):
+def test_a_sample_of_the_page_is_fitted_over_http_and_printed(service: httpx.Client):
     picture = service.get("/page/woman.jpg").content
     request = service.get("/page/woman.json").content
     form = {"image": ("woman.jpg", picture), "request": ("request.json", request)}
     fit = ended_job(service, service.post("/v1/fits", files=form))
     assert fit["state"] == "succeeded", fit["problem"]
-    asked = service.post(fit["links"]["derivations"], json={"kind": "report"})
-    report = ended_job(service, asked)
-    assert report["state"] == "succeeded", report["problem"]
-    assert service.get(report["links"]["files"]["report.pdf"]).content.startswith(b"%PDF")
+    asked = service.post(fit["links"]["products"], json={"kind": "print"})
+    page = ended_job(service, asked)
+    assert page["state"] == "succeeded", page["problem"]
+    assert service.get(page["links"]["files"]["print.html"]).text.startswith("<!doctype html>")
 
 
 def test_the_demo_and_a_fit_without_a_service_leave_their_files(

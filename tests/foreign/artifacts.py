@@ -6,25 +6,21 @@ that is what foreign readers open.
 
 import fcntl
 import json
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from api_schemas.derivations import DerivationRequest
 from api_schemas.fit import FitRequest
-from service.api.derivation_kinds import needs_of
+from api_schemas.products import ProductRequest
 from service.demo_data.sample import load_views_sample
-from service.jobs.inputs import SentPicture, named_pictures
+from service.jobs.inputs import RESULT, SentPicture, named_pictures, product_inputs
 from service.submissions.submission import check_submission
 from service.worker.files import with_result_document
-from service.worker.pipeline import derive, run
-from service.worker.pipeline_port import (
-    DerivationInput,
-    PipelineInput,
-)
+from service.worker.pipeline import make, run
+from service.worker.pipeline_port import PipelineInput, ProductInput
 
 MAX_PIXELS = 2_000_000
 
-DERIVED: Mapping[str, dict[str, object]] = {
+PRODUCTS: Mapping[str, dict[str, object]] = {
     "texture": {"kind": "texture", "colours": "picture", "size": 512},
     "albedo_texture": {"kind": "texture", "colours": "albedo", "size": 512},
     "pose": {"kind": "pose", "pose": "t_pose"},
@@ -65,7 +61,7 @@ def made_in(folder: Path) -> Path:
 def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
     fit = _of_fit()
     yield "fit", fit
-    yield from _derived(DERIVED, fit)
+    yield from _products(PRODUCTS, fit)
 
 
 def _of_fit() -> dict[str, bytes]:
@@ -81,22 +77,13 @@ def _of_fit() -> dict[str, bytes]:
     return with_result_document(output.result, output.files) | named_pictures(pictures)
 
 
-def _derived(
+def _products(
     asked_of: Mapping[str, dict[str, object]], there: Mapping[str, bytes]
 ) -> Iterator[tuple[str, Mapping[str, bytes]]]:
     for name, asked in asked_of.items():
-        request = DerivationRequest.model_validate_json(json.dumps(asked))
-        needs = needs_of(request.root)
-        made = derive(
-            DerivationInput(
-                options=request.root,
-                inputs=_copies(there, needs.of_fit),
-                max_pixels=MAX_PIXELS,
-            ),
+        request = ProductRequest.model_validate_json(json.dumps(asked))
+        made = make(
+            ProductInput(options=request.root, files=product_inputs(there), max_pixels=MAX_PIXELS),
             lambda _: None,
         )
-        yield name, with_result_document(made.result, made.files)
-
-
-def _copies(there: Mapping[str, bytes], names: Collection[str]) -> dict[str, bytes]:
-    return {each: there[each] for each in names if each in there}
+        yield name, {**made.files, RESULT: made.result.model_dump_json().encode()}

@@ -58,7 +58,7 @@ def shown_by(name: str, files: Path) -> Shown:
 
 
 class _Results:
-    """Result documents of the fit and of what was derived from it."""
+    """Result documents of the fit and of its products."""
 
     def __init__(self, files: Path) -> None:
         self._files = files

@@ -6,15 +6,15 @@ import string
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tests.fuzz.derivations import (
-    UNKNOWN_ID,
-    derivation_address,
-    derivation_body,
-    derivation_form,
-)
 from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
+from tests.fuzz.products import (
+    UNKNOWN_ID,
+    product_address,
+    product_body,
+    product_form,
+)
 
 DEEP = 5_000
 
@@ -217,9 +217,9 @@ KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "multipart body": (multipart_body, 0.13),
     "headers": (headers, 0.1),
     "address": (address, 0.07),
-    "derivation, JSON": (derivation_body, 0.05),
-    "derivation, form": (derivation_form, 0.07),
-    "derivation, path": (derivation_address, 0.03),
+    "product, JSON": (product_body, 0.05),
+    "product, form": (product_form, 0.07),
+    "product, path": (product_address, 0.03),
 }
 """Makers of requests, and how often each is taken, in proportion."""
 

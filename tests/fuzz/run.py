@@ -14,8 +14,8 @@ from typing import Any
 import httpx
 
 from tests.deployment import Deployment, Kind, wait_for
-from tests.fuzz.derivations import DERIVATION_ID, FIT_ID, OTHER_FIT_ID, with_ids
 from tests.fuzz.messages import RawRequest
+from tests.fuzz.products import FIT_ID, OTHER_FIT_ID, PRODUCT_ID, with_ids
 from tests.fuzz.requests import KINDS
 from tests.fuzz.sending import Answer, send
 from tests.process_table import own_memory_mib
@@ -28,9 +28,6 @@ LOOKS = 10
 READY_WITHIN_S = 900.0
 ENDED_WITHIN_S = 1_200.0
 MOST_FAULTS = 20
-
-_KIND = {"fits": "fit", "derivations": "derivation"}
-"""What a list of this name holds, where its entries have no kind."""
 
 FAULTY_ENDS = (": fit-failed", ": fit-crashed", ": out-of-memory", "timed_out")
 """Faults of ours, or of a file that killed its process."""
@@ -62,7 +59,7 @@ class Harvest:
                 f"{groups['503']:6} {groups['5xx']:10} {groups['none']:14}"
             )
         yield f"in all {sum(each.total() for each in self.statuses.values())} inputs"
-        yield "accepted jobs, and how they ended:"
+        yield "accepted fits, and how they ended:"
         for how, count in sorted(self.jobs.items()):
             yield f"  {count:6} {how}"
         memory = " ".join(f"{each:.0f}" for each in self.memory_mib)
@@ -81,28 +78,15 @@ def fuzz(
     with httpx.Client(base_url=deployment.address, timeout=READY_WITHIN_S) as client:
         deployment.start()
         assert wait_for(lambda: _is_ready(client), within_s=READY_WITHIN_S), "not ready"
-        ids = _something_to_derive_from(client)
+        ids = _something_to_make_of(client)
         # A fit's process ends by itself, when no other job of its owner follows.
         fits = deployment.of_kind(Kind.FIT)
         before = {each.pid for each in deployment.processes() if each not in fits}
         _send_all(deployment, harvest, ids, inputs, lambda number: made(number, seed, kinds))
-        lists = [
-            ("/v1/fits", "fits"),
-            *(
-                (f"/v1/fits/{ids[fit]}/derivations", "derivations")
-                for fit in (FIT_ID, OTHER_FIT_ID)
-            ),
-        ]
-        ended = wait_for(
-            lambda: all(_none_waits(client, *each) for each in lists), within_s=ENDED_WITHIN_S
-        )
-        if not ended:
+        if not wait_for(lambda: _none_waits(client), within_s=ENDED_WITHIN_S):
             harvest.faults.append("not all accepted jobs ended")
-        for each in lists:
-            _account_for_jobs(client, harvest, *each)
-        _erase_whole(
-            client, harvest, f"/v1/fits/{ids[FIT_ID]}", f"derivations/{ids[DERIVATION_ID]}"
-        )
+        _account_for_fits(client, harvest)
+        _erase_whole(client, harvest, f"/v1/fits/{ids[FIT_ID]}", f"products/{ids[PRODUCT_ID]}")
         wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=READY_WITHIN_S)
         harvest.fits_left = len(deployment.of_kind(Kind.FIT))
         harvest.restarts = len(before - {each.pid for each in deployment.processes()})
@@ -118,7 +102,7 @@ def made(number: int, seed: int, kinds: Sequence[str] = tuple(KINDS)) -> tuple[s
     return kind, KINDS[kind][0](chance)
 
 
-def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
+def _something_to_make_of(client: httpx.Client) -> dict[str, str]:
     """Fit a picture of a person twice, and pose a fit.
 
     Returns their ids by those that stand for them.
@@ -128,11 +112,11 @@ def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
     shaded = json.dumps(json.loads(picture.request) | {"cues": "SES"})
     files = replace(picture, request=shaded).files
     fits = [_succeeded(client, client.post("/v1/fits", files=files)) for _ in "12"]
-    pose = client.post(f"/v1/fits/{fits[0]}/derivations", json={"kind": "pose"})
+    pose = client.post(f"/v1/fits/{fits[0]}/products", json={"kind": "pose"})
     return {
         FIT_ID: fits[0],
         OTHER_FIT_ID: fits[1],
-        DERIVATION_ID: _succeeded(client, pose),
+        PRODUCT_ID: _succeeded(client, pose),
     }
 
 
@@ -147,19 +131,19 @@ def _succeeded(client: httpx.Client, answer: httpx.Response) -> str:
     return job["id"]
 
 
-def _none_waits(client: httpx.Client, path: str, called: str) -> bool:
-    return all(
-        client.get(f"{path}?state={state}&limit=1").json()[called] == []
-        for state in ("queued", "running")
-    )
+def _none_waits(client: httpx.Client) -> bool:
+    """Of fits and products alike, as the queue's figures say."""
+    figures = client.get("/metrics").text.splitlines()
+    waiting = [line for line in figures if line.startswith("maquette_queue_jobs")]
+    return all(line.rpartition(" ")[2] in ("0", "0.0") for line in waiting)
 
 
 def _erase_whole(client: httpx.Client, harvest: Harvest, path: str, below: str) -> None:
-    """What was derived from a job goes with it."""
+    """Products go with their fit."""
     client.delete(path).raise_for_status()
     left = client.get(f"{path}/{below}").status_code
     if left != httpx.codes.NOT_FOUND:
-        harvest.faults.append(f"what was derived from {path}, erased, is answered by {left}")
+        harvest.faults.append(f"a product of {path}, erased, is answered by {left}")
 
 
 def _send_all(
@@ -195,15 +179,15 @@ def _note(harvest: Harvest, number: int, kind: str, answer: Answer) -> None:
         harvest.faults.append(f"input {number} ({kind}): {answer.fault}")
 
 
-def _account_for_jobs(client: httpx.Client, harvest: Harvest, path: str, called: str) -> None:
-    following: str | None = f"{path}?limit=200"
+def _account_for_fits(client: httpx.Client, harvest: Harvest) -> None:
+    following: str | None = "/v1/fits?limit=200"
     while following is not None:
         page = client.get(following).raise_for_status().json()
-        for job in page[called]:
-            how = f"{job.get('kind', _KIND[called])} {_how_it_ended(job)}"
+        for fit in page["fits"]:
+            how = _how_it_ended(fit)
             harvest.jobs[how] += 1
             if how.endswith(FAULTY_ENDS):
-                harvest.faults.append(f"{job['links']['self']}: {job['problem']}")
+                harvest.faults.append(f"{fit['links']['self']}: {fit['problem']}")
         following = page["next"]
 
 

@@ -1,4 +1,4 @@
-// Maquette's HTTP API for browsers and Node: `fit` pictures, `waitFor` the end, take `result` and files.
+// Maquette's HTTP API for browsers and Node: `fit` pictures, take `result` and `file`s, have a `product` made.
 // All types are those of openapi.json.
 import type { components } from "./schema.js";
 
@@ -8,31 +8,28 @@ export type FitRequest = Schemas["FitRequest"];
 export type FitResult = Schemas["FitResult"];
 export type Measurement = Schemas["Measurement"];
 export type Problem = Schemas["Problem"];
+export type Product = Schemas["Product"];
+export type ProductRequest = Schemas["ProductRequest"];
+export type Progress = Schemas["EventData"];
 
 export interface Options {
   /** Where the service is, `https://measure.example.org`; in a browser the page's own origin if it is left out. */
   readonly address?: string;
-  /** A key on a server, a visitor's token in a browser; or what brings one, asked before each call. */
-  readonly token?: string | (() => string | Promise<string>);
+  /** An API key, where the service asks for one: on a server, never in a browser. */
+  readonly key?: string;
   readonly fetch?: typeof fetch;
 }
 
 export interface Sending {
   /** None, or one for each picture, white on the person: in place of the segmentation. */
   readonly masks?: readonly Blob[];
-  /** How long the answer may wait for the fit's end, in seconds: 30 if it is left out, at most 60. */
-  readonly wait?: number;
   /** The same key with the same content gives the same fit, however often it is sent. */
   readonly idempotencyKey?: string;
+  readonly onProgress?: (progress: Progress) => void;
   readonly signal?: AbortSignal;
 }
 
-export interface Waiting {
-  readonly onProgress?: (fit: Fit) => void;
-  readonly signal?: AbortSignal;
-}
-
-/** The service refused a call, or a fit has no result. `problem` says which field, why, and what to do. */
+/** The service refused a call, or a fit or product failed. `problem` says which field, why, and what to do. */
 export class MaquetteError extends Error {
   override readonly name = "MaquetteError";
   readonly status: number;
@@ -45,69 +42,118 @@ export class MaquetteError extends Error {
   }
 }
 
-const DEFAULT_WAIT_S = 30;
-const POLL_MS = 1_000;
+const PRODUCT_WAIT_S = 30;
+const PAUSE_MS = 1_000;
 const PROBLEM = "application/problem+json";
 
 export class Maquette {
   readonly #address: string;
-  readonly #token: Options["token"];
+  readonly #key: string | undefined;
   readonly #fetch: typeof fetch;
 
   constructor(options: Options = {}) {
     this.#address = (options.address ?? "").replace(/\/$/, "");
-    this.#token = options.token;
+    this.#key = options.key;
     this.#fetch = options.fetch ?? globalThis.fetch.bind(globalThis);
   }
 
-  /** Send one to six pictures, in the order of the request's `views`. The fit may have ended already: `waitFor` it. */
+  /** Have one to six pictures fitted, in the order of the request's `views`; resolves once that has succeeded. */
   async fit(request: FitRequest, pictures: readonly Blob[], sending: Sending = {}): Promise<Fit> {
-    const form = new FormData();
-    form.append("request", new Blob([JSON.stringify(request)], { type: "application/json" }), "request.json");
+    const form = formWith(request);
     for (const picture of pictures) form.append("image", picture, "image");
     for (const mask of sending.masks ?? []) form.append("mask", mask, "mask");
-    const headers: Record<string, string> = { Prefer: `wait=${sending.wait ?? DEFAULT_WAIT_S}` };
+    const headers: Record<string, string> = {};
     if (sending.idempotencyKey !== undefined) headers["Idempotency-Key"] = sending.idempotencyKey;
-    return json(await this.#call("/v1/fits", { method: "POST", body: form, headers, ...(sending.signal && { signal: sending.signal }) }));
+    const init = sending.signal ? { signal: sending.signal } : {};
+    const fit = await json<Fit>(await this.#call("/v1/fits", { method: "POST", body: form, headers, ...init }));
+    await this.#follow(fit, sending);
+    return succeeded(await json<Fit>(await this.#call(fit.links.self, init)));
   }
 
-  /** Resolves once the fit has succeeded; rejects with a `MaquetteError` if it ended otherwise. */
-  async waitFor(fit: Fit, { onProgress, signal }: Waiting = {}): Promise<Fit> {
-    let seen = fit;
-    for (;;) {
-      onProgress?.(seen);
-      if (seen.state === "succeeded") return seen;
-      if (seen.state !== "queued" && seen.state !== "running") throw failure(seen.problem, 409, `The fit ended as ${seen.state}.`);
-      await pause(POLL_MS, signal);
-      seen = await json<Fit>(await this.#call(seen.links.self, signal ? { signal } : {}));
-    }
-  }
-
-  /** What a fit that succeeded has found; `stages` is empty unless it is asked for. */
+  /** What a fit has found; `stages` is empty unless it is asked for. */
   async result(fit: Fit, asked: { readonly stages?: boolean } = {}): Promise<FitResult> {
-    const query = asked.stages ? "?include=stages" : "";
-    return json(await this.#call(`${fit.links.self}/result${query}`, {}));
+    return json(await this.#call(`${fit.links.self}/result${asked.stages ? "?include=stages" : ""}`));
   }
 
-  /** One of its files: `views/0/overlay.png`, or, made when asked for, `body_canonical.obj`, `measurements.csv`. */
-  async file(fit: Fit, name: string): Promise<Blob> {
-    return (await this.#call(`${fit.links.self}/files/${name}`, {})).blob();
+  /** Have something made of a fit; `part` is what comes along, `{ bvh }`, `{ texture }` or `{ chart }`. */
+  async product(fit: Fit, request: ProductRequest, part: Readonly<Record<string, Blob>> = {}): Promise<Product> {
+    const form = formWith(request);
+    for (const [name, content] of Object.entries(part)) form.append(name, content, name);
+    const headers = { Prefer: `wait=${PRODUCT_WAIT_S}` };
+    let product = await json<Product>(await this.#call(`${fit.links.self}/products`, { method: "POST", body: form, headers }));
+    while (product.state === "queued" || product.state === "running") {
+      await pause();
+      product = await json<Product>(await this.#call(product.links.self));
+    }
+    return succeeded(product);
   }
 
-  /** Stop it if it runs, and erase its pictures and results. */
+  /** A file of a fit or a product: `views/0/overlay.png`, or, made when asked for, `body_canonical.obj`. */
+  async file(of: Fit | Product, name: string): Promise<Blob> {
+    return (await this.#call(`${of.links.self}/files/${name}`)).blob();
+  }
+
+  /** Erase a fit with its pictures, results and products. */
   async erase(fit: Fit): Promise<void> {
     await this.#call(fit.links.self, { method: "DELETE" });
   }
 
-  async #call(path: string, init: RequestInit): Promise<Response> {
+  /** Read a fit's events to their end, over broken connections too. */
+  async #follow(fit: Fit, { onProgress, signal }: Sending): Promise<void> {
+    let seen = "0";
+    for (;;) {
+      signal?.throwIfAborted();
+      try {
+        const init = { headers: { "Last-Event-ID": seen }, ...(signal && { signal }) };
+        const response = await this.#call(fit.links.events, init);
+        if (response.status === 204) return;
+        for await (const event of events(response)) {
+          seen = event["id"] ?? seen;
+          onProgress?.(JSON.parse(event["data"] ?? "{}") as Progress);
+          if (event["event"] === "end") return;
+        }
+      } catch (error) {
+        if (signal?.aborted || (error instanceof MaquetteError && error.status < 500)) throw error;
+      }
+      await pause();
+    }
+  }
+
+  async #call(path: string, init: RequestInit = {}): Promise<Response> {
     const headers = new Headers(init.headers);
-    const token = typeof this.#token === "function" ? await this.#token() : this.#token;
-    if (token !== undefined) headers.set("Authorization", `Bearer ${token}`);
+    if (this.#key !== undefined) headers.set("Authorization", `Bearer ${this.#key}`);
     const response = await this.#fetch(this.#address + path, { ...init, headers });
     if (response.ok) return response;
     const isProblem = response.headers.get("Content-Type")?.startsWith(PROBLEM);
     throw failure(isProblem ? await json<Problem>(response) : null, response.status, `The service answered ${response.status}.`);
   }
+}
+
+/** The fields of each event of a stream. */
+async function* events(response: Response): AsyncGenerator<Record<string, string>> {
+  const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    const whole = (text + value).split("\n\n");
+    text = whole.pop()!;
+    for (const event of whole) {
+      const fields = event.split("\n").filter((line) => !line.startsWith(":"));
+      if (fields.length > 0) yield Object.fromEntries(fields.map((line) => line.split(/: (.*)/s, 2)));
+    }
+  }
+}
+
+function formWith(request: FitRequest | ProductRequest): FormData {
+  const form = new FormData();
+  form.append("request", new Blob([JSON.stringify(request)], { type: "application/json" }), "request.json");
+  return form;
+}
+
+function succeeded<Ended extends Fit | Product>(ended: Ended): Ended {
+  if (ended.state === "succeeded") return ended;
+  throw failure(ended.problem, 409, `It ended as ${ended.state}.`);
 }
 
 function failure(problem: Problem | null, status: number, otherwise: string): MaquetteError {
@@ -119,15 +165,6 @@ async function json<T>(response: Response): Promise<T> {
   return (await response.json()) as T;
 }
 
-async function pause(milliseconds: number, signal: AbortSignal | undefined): Promise<void> {
-  signal?.throwIfAborted();
-  const ended = new AbortController();
-  try {
-    await new Promise<void>((resume, reject) => {
-      setTimeout(resume, milliseconds);
-      signal?.addEventListener("abort", () => reject(signal.reason), { signal: ended.signal });
-    });
-  } finally {
-    ended.abort();
-  }
+async function pause(): Promise<void> {
+  await new Promise((resume) => setTimeout(resume, PAUSE_MS));
 }

@@ -8,7 +8,7 @@ from typing import Any
 
 import httpx
 
-from tests.chaos.caller import ACTIVE, Derived, Task
+from tests.chaos.caller import ACTIVE
 from tests.chaos.outages.exchanges import NO_ANSWER, Ledger
 from tests.submissions import Submission
 
@@ -44,9 +44,8 @@ class Followed:
 class GoodClient:
     """One client with connections of its own."""
 
-    def __init__(self, address: str, ledger: Ledger, *, parent: str | None = None) -> None:
+    def __init__(self, address: str, ledger: Ledger) -> None:
         self._ledger = ledger
-        self._parent = parent
         timeout = httpx.Timeout(HANG_S, connect=10.0)
         self._client = httpx.Client(base_url=address, timeout=timeout)
 
@@ -54,7 +53,7 @@ class GoodClient:
         """Release the connections."""
         self._client.close()
 
-    def post(self, task: Task, *, key: str) -> str:
+    def post(self, task: Submission, *, key: str) -> str:
         """Submit until it is accepted; returns the job's path."""
         for _ in _until_given_up():
             answer = self._ledger.send("POST", lambda: self._posted(task, key))
@@ -111,13 +110,9 @@ class GoodClient:
                     job.ends += 1
         return answer
 
-    def _posted(self, task: Task, key: str) -> httpx.Response:
+    def _posted(self, task: Submission, key: str) -> httpx.Response:
         headers = {"Idempotency-Key": key}
-        if isinstance(task, Submission):
-            return self._client.post("/v1/fits", files=task.files, headers=headers)
-        assert isinstance(task, Derived)
-        path = f"{self._parent}/derivations"
-        return self._client.post(path, json=dict(task.request), headers=headers)
+        return self._client.post("/v1/fits", files=task.files, headers=headers)
 
 
 def _events(lines: Iterator[str]) -> Iterator[tuple[int, str]]:

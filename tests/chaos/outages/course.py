@@ -6,11 +6,11 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from tests.chaos.caller import Task
 from tests.chaos.outages.client import Followed, GoodClient
 from tests.chaos.outages.exchanges import Exchange, Ledger
 from tests.chaos.outages.probes import Probes, probing
 from tests.deployment import Deployment, wait_for
+from tests.submissions import Submission
 
 AT_ONCE = 10
 """Jobs posted without a pause, so that workers are busy when the fault begins."""
@@ -52,18 +52,16 @@ class Course:
     log: str = ""
 
 
-def undergo(
-    scene: Scene, tasks: Sequence[Task], *, parent: str, jobs: int, fault_s: float
-) -> Course:
+def undergo(scene: Scene, tasks: Sequence[Submission], *, jobs: int, fault_s: float) -> Course:
     """Submit the jobs, let the fault last ``fault_s`` seconds, and wait for all ends."""
     course, ledger = Course(fault_s=fault_s), Ledger()
     deployment = scene.deployment
     logged_before = deployment.log.stat().st_size
     with (
         probing(deployment.address, ledger) as probes,
-        contextlib.closing(GoodClient(deployment.address, ledger, parent=parent)) as again,
+        contextlib.closing(GoodClient(deployment.address, ledger)) as again,
     ):
-        posting = _Posting(deployment.address, ledger, tasks, course, parent=parent)
+        posting = _Posting(deployment.address, ledger, tasks, course)
         threads = posting.start(jobs, pace_s=(fault_s + TAIL_S) / (jobs - AT_ONCE))
         _await_work(scene, course, probes)
         course.began_at = time.monotonic()
@@ -98,16 +96,13 @@ class _Posting:
         self,
         address: str,
         ledger: Ledger,
-        tasks: Sequence[Task],
+        tasks: Sequence[Submission],
         course: Course,
-        *,
-        parent: str,
     ) -> None:
         self._address = address
         self._ledger = ledger
         self._tasks = tasks
         self._course = course
-        self._parent = parent
         self.followers: list[threading.Thread] = []
 
     def start(self, jobs: int, *, pace_s: float) -> list[threading.Thread]:
@@ -143,7 +138,7 @@ class _Posting:
             (client.follow if number % 2 else client.poll)(job)
 
     def _client(self) -> GoodClient:
-        return GoodClient(self._address, self._ledger, parent=self._parent)
+        return GoodClient(self._address, self._ledger)
 
     @contextlib.contextmanager
     def _giving_up(self, job: Followed) -> Iterator[None]:

@@ -93,7 +93,7 @@ def judge(
             for job in course.jobs
             if job.path
         }
-        listed = caller.jobs()
+        listed = caller.fits()
     finally:
         caller.close()
     known = [each for each in found.values() if each is not None]
@@ -128,8 +128,7 @@ def judge(
         ),
         wrong=sum(each.is_wrong for each in known),
         second_answers=course.second_answers,
-        # The run's parent is there besides.
-        duplicated=len(listed) - len(set(ids)) - 1,
+        duplicated=len(listed) - len(set(ids)),
         not_ended_once=sum(each.ends != 1 for each in known)
         + sum(job.ends != 1 for job in course.jobs),
         events_out_of_order=sum(

@@ -6,7 +6,6 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from tests.chaos.caller import Task
 from tests.deployment import wait_for
 from tests.integration.service.receiver import Receiver, receiving
 from tests.submissions import Submission
@@ -29,7 +28,7 @@ class Notices:
     def __init__(self, receiver: Receiver) -> None:
         self._receiver = receiver
 
-    def asked_for(self, tasks: Sequence[Task]) -> list[Task]:
+    def asked_for(self, tasks: Sequence[Submission]) -> list[Submission]:
         """The tasks, with a notice of each end."""
         return [self._with_notice(task) for task in tasks]
 
@@ -49,12 +48,9 @@ class Notices:
             bodies[notice.headers["webhook-id"]].append(notice.body)
         return dict(bodies)
 
-    def _with_notice(self, task: Task) -> Task:
-        webhook = {"url": self._receiver.url()}
-        if isinstance(task, Submission):
-            asked = json.loads(task.request) | {"webhook": webhook}
-            return replace(task, request=json.dumps(asked))
-        return replace(task, request={**task.request, "webhook": webhook})
+    def _with_notice(self, task: Submission) -> Submission:
+        asked = json.loads(task.request) | {"webhook": {"url": self._receiver.url()}}
+        return replace(task, request=json.dumps(asked))
 
 
 @contextlib.contextmanager

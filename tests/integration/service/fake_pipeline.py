@@ -15,21 +15,20 @@ from pathlib import Path
 from typing import Any, Final
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
+from api_schemas.products.base import ProductResult
 from fitter.vocabulary.choices import Gender
 from service.engine.port import Report
 from service.jobs.inputs import PERSON, SentPicture
 from service.worker.pipeline_port import (
-    DerivationInput,
-    DerivationOutput,
+    Made,
     PipelineInput,
     PipelineOutput,
+    ProductInput,
     UnusableInputError,
 )
 from service.worker.tasks import job_tasks
-from tests.integration.service.fake_derived import derived_output
+from tests.integration.service.fake_products import made_product
 from tests.integration.service.fake_results import fit_result, result_files
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
@@ -103,15 +102,13 @@ def _script(picture: SentPicture[bytes]) -> dict[str, Any]:
     return json.loads(picture.image.partition(SCRIPT_MARK)[2])
 
 
-def derive(
-    job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
-) -> DerivationOutput[DerivedFiles]:
-    """Do what the fit's picture said under ``derivation``; the person is that picture."""
-    script = json.loads(job.inputs[PERSON].partition(SCRIPT_MARK)[2]).get("derivation", {})
+def make(product: ProductInput, observe: Callable[[Report], None]) -> Made[ProductResult]:
+    """Do what the fit's picture said under ``product``; the person is that picture."""
+    script = json.loads(product.files[PERSON].partition(SCRIPT_MARK)[2]).get("product", {})
     _begin(script)
-    observe(Report(stage=job.options.kind, progress=0.5))
+    observe(Report(stage=product.options.kind, progress=0.5))
     _go_on(script)
-    return derived_output(job)
+    return made_product(product)
 
 
 def _begin(script: dict[str, Any]) -> None:
@@ -163,4 +160,4 @@ def _work(seconds: float, *, burn: bool) -> None:
             time.sleep(remaining)
 
 
-TASKS: Final = job_tasks(run, derive)
+TASKS: Final = job_tasks(run, make)

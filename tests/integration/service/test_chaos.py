@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from tests.chaos.caller import Derived, Task
+from tests.chaos.caller import Product, Task
 from tests.chaos.reference import Outcome, references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
@@ -22,7 +22,7 @@ COMMANDS = Commands(
     worker=(sys.executable, "-m", "tests.integration.service.fake_worker"),
 )
 PICTURES = 3
-DERIVED = ("pose", "body_composition")
+PRODUCTS = ("pose", "composition")
 PLAN = Plan(
     jobs=24,
     kills={Kind.API: 2, Kind.WORKER: 3, Kind.FIT: 3, Kind.FORK_SERVER: 1},
@@ -31,13 +31,14 @@ PLAN = Plan(
 
 
 # So long that some of the kills hit a job.
-SCRIPT = {"seconds": 0.8, "derivation": {"seconds": 0.8}}
+SCRIPT = {"seconds": 0.8, "product": {"seconds": 0.8}}
+FITS = tuple(
+    Submission(image=scripted_image(SCRIPT | {"number": number}), request=json.dumps(REQUEST))
+    for number in range(PICTURES)
+)
 TASKS: tuple[Task, ...] = (
-    *(
-        Submission(image=scripted_image(SCRIPT | {"number": number}), request=json.dumps(REQUEST))
-        for number in range(PICTURES)
-    ),
-    *(Derived(request={"kind": kind}) for kind in DERIVED),
+    *FITS,
+    *(Product(of=FITS[0], request={"kind": kind}) for kind in PRODUCTS),
 )
 
 

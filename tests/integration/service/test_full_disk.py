@@ -109,9 +109,8 @@ def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
     key = {"Idempotency-Key": "before"}
     fit = service.post(headers=key).headers["Location"]
     assert service.ended(fit)["state"] == "succeeded"
-    report = service.client.post(f"{fit}/derivations", json={"kind": "pose"})
-    derivation = report.headers["Location"]
-    service.ended(derivation)
+    product = service.client.post(f"{fit}/products", json={"kind": "pose"})
+    service.ended(product.headers["Location"])
     image = upload(service, scripted_image({"kept": True})).json()["id"]
     kept = blobs_of(disk)
 
@@ -122,9 +121,10 @@ def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
     by_id = json.dumps(REQUEST | {"image_id": image})
     assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
     assert_no_room(upload(service, scripted_image({"new": True})))
-    assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "pose"}))
+    other = {"kind": "pose", "pose": "sitting"}
+    assert_no_room(service.client.post(f"{fit}/products", json=other))
+    assert service.client.post(f"{fit}/products", json={"kind": "pose"}).status_code == 200
     assert_no_room(service.client.post(f"{fit}/retry"))
-    assert_no_room(service.client.post(f"{derivation}/retry"))
     assert blobs_of(disk) == kept
 
     assert service.post(headers=key).headers["Location"] == fit

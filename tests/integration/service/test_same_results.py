@@ -5,13 +5,13 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 
-from api_schemas.derivations import DerivationRequest
+from api_schemas.products import ProductRequest
 from service.engine.port import FIT
-from service.jobs.inputs import IMAGE, PERSON, RESULT, of_view
+from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
 from service.numerics.fork_server import Child, ForkServer
 from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
 from service.numerics.tasks import ChildSetup
-from service.worker.tasks import DERIVATION, OPTIONS, STAGE_SECONDS
+from service.worker.tasks import OPTIONS, PRODUCT, STAGE_SECONDS
 from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
@@ -26,7 +26,7 @@ SETUP = ChildSetup(
     log_format="text",
 )
 
-KINDS = ("body_composition", "caricature", "pose", "animation")
+KINDS = ("composition", "caricature", "pose", "animation")
 
 Job = tuple[str, dict[str, bytes]]
 """Its task and parts."""
@@ -49,19 +49,19 @@ def alone(processes: ForkServer, fits: Sequence[Job]) -> Sequence[dict[str, byte
 
 
 @pytest.fixture(scope="module")
-def derivations(alone: Sequence[dict[str, bytes]]) -> dict[str, Job]:
-    """What is derived from the first fit, by kind."""
-    found = {name: alone[0][name] for name in (PERSON, RESULT)}
-    return {kind: _derivation({"kind": kind}, found) for kind in KINDS}
+def products(fits: Sequence[Job], alone: Sequence[dict[str, bytes]]) -> dict[str, Job]:
+    """Products of the first fit, by kind."""
+    files = product_inputs(fits[0][1] | alone[0])
+    return {kind: _product({"kind": kind}, files) for kind in KINDS}
 
 
 @pytest.fixture(scope="module")
 def after_others(
-    processes: ForkServer, fits: Sequence[Job], derivations: dict[str, Job]
+    processes: ForkServer, fits: Sequence[Job], products: dict[str, Job]
 ) -> Sequence[dict[str, bytes]]:
     """The files of jobs that one process runs; the first fit is its second, fourth and last."""
     one, other, last = fits
-    return list(results(processes, [other, one, last, one, *derivations.values(), one]))
+    return list(results(processes, [other, one, last, one, *products.values(), one]))
 
 
 def test_a_fit_is_the_same_in_a_process_that_has_run_others(
@@ -72,14 +72,14 @@ def test_a_fit_is_the_same_in_a_process_that_has_run_others(
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_is_derived_from_a_fit_is_the_same_after_other_jobs(
+def test_a_product_of_a_fit_is_the_same_after_other_jobs(
     processes: ForkServer,
-    derivations: dict[str, Job],
+    products: dict[str, Job],
     after_others: Sequence[dict[str, bytes]],
     kind: str,
 ):
-    (derived,) = results(processes, [derivations[kind]])
-    assert after_others[4 + KINDS.index(kind)] == derived
+    (alone,) = results(processes, [products[kind]])
+    assert after_others[4 + KINDS.index(kind)] == alone
 
 
 def results(processes: ForkServer, jobs: Sequence[Job]) -> Iterator[dict[str, bytes]]:
@@ -115,6 +115,6 @@ def _fit(request: str, image: bytes) -> Job:
     return FIT, {OPTIONS: asked.model_dump_json().encode(), of_view(0, IMAGE): image}
 
 
-def _derivation(options: dict[str, object], inputs: dict[str, bytes]) -> Job:
-    options_part = DerivationRequest.model_validate(options).model_dump_json().encode()
-    return DERIVATION, {OPTIONS: options_part, **inputs}
+def _product(options: dict[str, object], files: dict[str, bytes]) -> Job:
+    options_part = ProductRequest.model_validate(options).model_dump_json().encode()
+    return PRODUCT, {OPTIONS: options_part, **files}

@@ -6,7 +6,7 @@ import sqlalchemy as sa
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import problem
 from api_schemas.results import ResultFile
-from service.engine.attempts import AttemptLog, result_from_json, result_to_json
+from service.engine.attempts import AttemptLog, Computed, computed_from_json, computed_to_json
 from service.engine.database import open_database
 from service.engine.port import AttemptResult, Directive, Ending, Report
 from service.engine.records import find_job
@@ -59,7 +59,7 @@ def test_an_attempt_runs_and_ends(database):
     assert ended is not None
     assert ended.state is JobState.SUCCEEDED
     assert ended.progress == 1.0
-    assert ended.files == (ARTIFACT,)
+    assert ended.result_files == (ARTIFACT,)
     assert ended.finished_at is not None
 
 
@@ -170,5 +170,7 @@ def test_an_erased_job_supersedes_its_attempt(database):
         ),
     ],
 )
-def test_a_checkpoint_gives_back_what_it_was_made_from(result):
-    assert result_from_json(result_to_json(7, result)) == (7, result)
+def test_a_checkpoint_gives_back_what_it_was_made_from(database, result):
+    begun = log(database).begin(JOB)
+    stored = computed_from_json(computed_to_json(begun.job, result))
+    assert stored == Computed(attempt=1, scope=JOB, result=result)

@@ -12,6 +12,7 @@ from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Fit, FitPage
 from api_schemas.problems import ProblemType
+from api_schemas.products import Product, ProductRequest
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.results import FitResult
 from api_schemas.service import Live, Ready
@@ -29,6 +30,8 @@ KINDS = {
     "get_fit_request": FitRequest,
     "get_fit_result": FitResult,
     "get_fit_file": FitResult,
+    "make_product": Product,
+    "get_product": Product,
     "upload_image": UploadedImage,
     "list_images": ImagePage,
     "get_image": UploadedImage,
@@ -56,6 +59,7 @@ def test_examples_of_answers_are_of_their_types(operation):
     ("operation", "kind"),
     [
         ("submit_fit", FitRequest),
+        ("make_product", ProductRequest),
         ("estimate_initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),

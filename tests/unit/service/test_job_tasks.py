@@ -4,7 +4,7 @@ import json
 
 from service.jobs.inputs import SentPicture, named_pictures, pictures_of
 from service.numerics.tasks import ChildSetup
-from service.worker.tasks import OPTIONS, derivation_input, fit_input
+from service.worker.tasks import OPTIONS, fit_input, product_input
 
 SETUP = ChildSetup(
     name="job",
@@ -40,5 +40,5 @@ def test_names_of_pictures_say_of_which_view_they_are():
 
 def test_what_a_fit_left_reaches_the_pipeline():
     asked = json.dumps({"kind": "caricature", "factor": 2.0}).encode()
-    derived = derivation_input(SETUP, {OPTIONS: asked, "person.npz": b"p"})
-    assert dict(derived.inputs) == {"person.npz": b"p"}
+    product = product_input(SETUP, {OPTIONS: asked, "person.npz": b"p"})
+    assert dict(product.files) == {"person.npz": b"p"}

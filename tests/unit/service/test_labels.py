@@ -5,7 +5,6 @@ import json
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.derivations import DerivationRequest
 from api_schemas.fit import FitRequest
 from api_schemas.labels import LONGEST, LabelOfList
 from service.submissions.refusal import RefusedError
@@ -13,7 +12,7 @@ from service.submissions.validation import parsed
 
 
 def labelled(label: object) -> FitRequest:
-    text = json.dumps({"gender": "male", "points": "auto", "label": label}).encode()
+    text = json.dumps({"gender": "male", "label": label}).encode()
     return parsed(FitRequest, text, whole="request", called="the part 'request'")
 
 
@@ -63,28 +62,6 @@ def test_what_cannot_be_read_is_refused_by_name(label, code):
         labelled(label)
     assert (caught.value.problem.field, caught.value.problem.code) == ("label", code)
     assert caught.value.problem.remedy
-
-
-@pytest.mark.parametrize(
-    "text", ["nul\0", "two\nlines", "\u202egnirts", "zero\u200bwidth", "\u3164", "  "]
-)
-@pytest.mark.parametrize(
-    ("asked", "field"),
-    [
-        (
-            lambda text: {
-                "kind": "size",
-                "chart": {"sizes": [{"label": text, "measurements": {"hip_girth": 100}}]},
-                "tolerances": {"hip_girth": {"too_small": 1, "too_large": 2}},
-            },
-            "chart.sizes.0.label",
-        ),
-    ],
-)
-def test_whatever_else_is_shown_to_people_obeys_the_same_rule(asked, field, text):
-    with pytest.raises(RefusedError) as caught:
-        parsed(DerivationRequest, json.dumps(asked(text)).encode(), whole="body", called="it")
-    assert (caught.value.problem.field, caught.value.problem.code) == (field, "unreadable-label")
 
 
 def test_what_was_kept_under_the_rule_of_1_0_can_still_be_looked_for():

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from service.engine.turns import QueueSight, next_turn
 
 ALICE, BOB, CAROL = "alice", "bob", "carol"
+ALICES_PRODUCTS = "alice products"
 
 
 @dataclass
@@ -24,12 +25,14 @@ class Played:
 
     def submit(self, tenant: str, *, jobs: int = 1) -> None:
         for _ in range(jobs):
+            of_tenant = {each for _, _, each in self.waiting if each[:3] == tenant[:3]}
             turns = [turn for turn, _, each in (*self.waiting, *self.running) if each == tenant]
             turn = next_turn(
                 QueueSight(
                     begun=max((turn for turn, _, _ in self.running), default=None),
                     waiting=min((turn for turn, _, _ in self.waiting), default=None),
                     own=max(turns, default=None),
+                    others=len(of_tenant - {tenant}),
                 )
             )
             self.accepted += 1
@@ -93,7 +96,7 @@ def test_who_comes_while_nothing_runs_waits_for_nothing_that_came_later():
 
 
 def test_the_first_job_has_the_first_turn():
-    assert next_turn(QueueSight(begun=None, waiting=None, own=None)) == 1
+    assert next_turn(QueueSight(begun=None, waiting=None, own=None, others=0)) == 1
 
 
 STEPS = st.lists(st.one_of(st.sampled_from("abcde"), st.none()), max_size=120)
@@ -144,3 +147,13 @@ def test_nobody_is_overtaken_more_than_once_by_each_tenant_that_comes_later(
 def _was_first(steps: list[str | None], number: int) -> bool:
     submitted = [step for step in steps if step is not None]
     return submitted[number - 1] not in submitted[: number - 1]
+
+
+def test_fits_and_products_of_a_tenant_take_turns_among_those_of_others():
+    queue = Played()
+    for owner in (ALICES_PRODUCTS, ALICE, BOB):
+        queue.submit(owner, jobs=4)
+    order = queue.run_out()
+    assert Counter(order[:10])[BOB] == 4
+    assert order.index(ALICE) < 5
+    assert Counter(order) == Counter({ALICES_PRODUCTS: 4, ALICE: 4, BOB: 4})

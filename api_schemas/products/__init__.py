@@ -1,0 +1,112 @@
+"""Products: files that are functions of a finished fit, made when they are asked for.
+
+One module a kind holds its options and its result; a kind that is added has a line in each of the
+two lists here.
+"""
+
+import hashlib
+import json
+from typing import Annotated, Any, Final, cast
+from uuid import UUID
+
+from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
+
+from api_schemas.base import WireModel
+from api_schemas.jobs import JobState
+from api_schemas.problems import Problem
+from api_schemas.products.animation import AnimationOptions, AnimationResult
+from api_schemas.products.base import ProductKind, ProductOptions
+from api_schemas.products.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.products.composition import CompositionOptions, CompositionResult
+from api_schemas.products.pose import PoseOptions, PoseResult
+from api_schemas.products.print import PrintOptions, PrintResult
+from api_schemas.products.size import SizeOptions, SizeResult
+from api_schemas.products.texture import TextureOptions, TextureResult
+
+# A tag is the kind in brackets, by which field names of problems leave the alternative out.
+AnyProductOptions = (
+    Annotated[TextureOptions, Tag("[texture]")]
+    | Annotated[PoseOptions, Tag("[pose]")]
+    | Annotated[AnimationOptions, Tag("[animation]")]
+    | Annotated[CaricatureOptions, Tag("[caricature]")]
+    | Annotated[PrintOptions, Tag("[print]")]
+    | Annotated[SizeOptions, Tag("[size]")]
+    | Annotated[CompositionOptions, Tag("[composition]")]
+)
+"""What is asked for."""
+
+AnyProductResult = (
+    Annotated[TextureResult, Tag("[texture]")]
+    | Annotated[PoseResult, Tag("[pose]")]
+    | Annotated[AnimationResult, Tag("[animation]")]
+    | Annotated[CaricatureResult, Tag("[caricature]")]
+    | Annotated[PrintResult, Tag("[print]")]
+    | Annotated[SizeResult, Tag("[size]")]
+    | Annotated[CompositionResult, Tag("[composition]")]
+)
+"""What came of it."""
+
+
+def _tag(value: Any) -> str | None:
+    is_object = isinstance(value, dict)
+    kind = cast("dict[str, Any]", value).get("kind") if is_object else getattr(value, "kind", None)
+    return f"[{kind}]" if isinstance(kind, str) else None
+
+
+_BY_KIND: Final = Discriminator(
+    _tag,
+    custom_error_type="unknown-value",
+    custom_error_message="{reason}",
+    custom_error_context={
+        "field": "kind",
+        "reason": "The request does not say what is to be made.",
+        "remedy": f"Send as kind one of {', '.join(map(repr, map(str, ProductKind)))}.",
+    },
+)
+
+
+class ProductRequest(RootModel[Annotated[AnyProductOptions, _BY_KIND]]):
+    """What to make of a fit; ``kind`` says which fields there are."""
+
+    model_config = ConfigDict(frozen=True, strict=True, hide_input_in_errors=True)
+
+
+class ProductDocument(RootModel[Annotated[AnyProductResult, _BY_KIND]]):
+    """What there is to say of a product; ``kind`` says which fields there are."""
+
+    model_config = ConfigDict(frozen=True, strict=True)
+
+
+class ProductLinks(WireModel):
+    """Paths of a product's resources below this service's root."""
+
+    self: str
+    fit: str
+    files: dict[str, str] = Field(description="By name, once it has succeeded.")
+
+
+class Product(WireModel):
+    """Files that are made of a fit; they are erased with it."""
+
+    id: str = Field(
+        pattern="^[0-9a-f]{32}$",
+        description="A digest of what was asked for: of one fit the same is made once.",
+    )
+    kind: ProductKind
+    fit_id: UUID
+    state: JobState
+    progress: float = Field(ge=0.0, le=1.0, description="The share of the work that is done.")
+    problem: Problem | None = Field(description="Why there is no result; null unless it failed.")
+    result: ProductDocument | None = Field(
+        description="What there is to say of the files; null until it has succeeded."
+    )
+    links: ProductLinks
+
+
+def product_id(options: ProductOptions, part: bytes | None) -> str:
+    """Digest what is asked for: the options as understood, and the part that came with them."""
+    understood = json.dumps(options.model_dump(mode="json"), sort_keys=True)
+    digest = hashlib.sha256(understood.encode())
+    if part is not None:
+        digest.update(hashlib.sha256(part).digest())
+    return digest.hexdigest()[:32]

@@ -1,1 +1,0 @@
-"""What is derived from a fitted person: one module per kind, between two translations."""

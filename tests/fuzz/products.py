@@ -1,0 +1,159 @@
+"""Requests for products of a fit, damaged in their JSON, their files, their ids."""
+
+import json
+import random
+from collections.abc import Mapping
+from typing import Any
+
+from api_schemas.products.base import ProductKind
+from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
+from tests.fuzz.motions import motion
+from tests.fuzz.mutations import NASTY, damaged, damaged_document
+from tests.fuzz.pictures import painted_atlas, picture
+
+FIT_ID = "11111111-1111-4111-8111-111111111111"
+PRODUCT_ID = "2" * 32
+OTHER_FIT_ID = "33333333-3333-4333-8333-333333333333"
+"""Stand for those of fits and of a product that there are: put in place of them on sending."""
+
+UNKNOWN_ID = "00000000-0000-4000-8000-000000000000"
+IDS = (FIT_ID, OTHER_FIT_ID, PRODUCT_ID, UNKNOWN_ID, "", "0", "%00", "..")
+
+KINDS = tuple(each.value for each in ProductKind)
+FACTORS = (0, 1, 0.5, 2.5, 3, 6, 99.9, 100, 100.1, -1, 1e-300)
+PARTS = ("head", "left_forearm", "right_thigh", "pelvis", "left_foot", "chest", "tail")
+POSES = ("rest", "standing", "a_pose", "t_pose", "relaxed", "walking", "sitting", "arms_raised")
+CHART_HEADS = (
+    "size,chest_girth,waist_girth_navel",
+    "size;chest_girth_low;chest_girth_high",
+    "size,waist",
+    "size",
+)
+CHART_CELLS = ("94-98", "80-84", "96", "", "98-94", "nan", "1e9", "94–98", "94,5-98", '"', "-", "0")
+SUBPATHS = (
+    *("", "/", "/events", "/request"),
+    *("/files/pose.png", "/files/", "/files/..%2f..", "/nothing"),
+)
+
+
+def product_body(chance: random.Random) -> RawRequest:
+    """A request as JSON: sound of its kind, or damaged in its values, its nesting or its text."""
+    document = _document(chance)
+    text = json.dumps(document).encode()
+    roll = chance.random()
+    if roll < 0.45:
+        text = json.dumps(damaged_document(document, chance)).encode()
+    elif roll < 0.6:
+        text = damaged(text, chance)
+    return head_and_body(_path(chance), JSON, text)
+
+
+def product_form(chance: random.Random) -> RawRequest:
+    """A form with a file, mostly damaged, and now and then of the wrong kind."""
+    document = _document(chance)
+    parts: dict[str, bytes] = {}
+    roll = chance.random()
+    if roll < 0.25:
+        document = {"kind": "size"}
+        chart = chart_table(chance).encode()
+        parts["chart"] = damaged(chart, chance) if chance.random() < 0.3 else chart
+    elif roll < 0.6:
+        document = {"kind": "animation", "start_s": chance.choice((0, 0, 0.05, 3600, -1))}
+        if chance.random() < 0.3:
+            document["up"] = chance.choice(("y", "z", "-x", "w"))
+        if chance.random() < 0.3:
+            part, name = (chance.choice(("pelvis", "chest", "left_shin", "tail")) for _ in range(2))
+            document["joints"] = {part: chance.choice(("Hips", "LeftKnee", "Chest", name))}
+        parts["bvh"] = motion(chance)
+    else:
+        document = {"kind": "texture", "colours": "own"}
+        parts["texture"] = chance.choice((painted_atlas, painted_atlas, picture))(chance)
+    if chance.random() < 0.15:
+        document = _document(chance)
+    if chance.random() < 0.1:
+        parts[chance.choice(("bvh", "texture", "chart", "image", "mask", ""))] = b"HIERARCHY\n"
+    parts["request"] = json.dumps(document).encode()
+    if chance.random() < 0.1:
+        parts["request"] = damaged(parts["request"], chance)
+    body = multipart(parts)
+    if chance.random() < 0.1:
+        body = damaged(body, chance)
+    return head_and_body(_path(chance), MULTIPART, body)
+
+
+def product_address(chance: random.Random) -> RawRequest:
+    """Any of the paths below a fit's products, with ids of this and of that."""
+    fit, product = (
+        known if chance.random() < 0.6 else chance.choice(IDS) for known in (FIT_ID, PRODUCT_ID)
+    )
+    method = chance.choice(("GET", "GET", "GET", "POST", "POST", "PUT", "DELETE"))
+    target = f"/v1/fits/{fit}/products"
+    # What is there already is to stay: only strangers and what cannot be are erased.
+    if method != "DELETE" or product != PRODUCT_ID:
+        target += f"/{product}{chance.choice(SUBPATHS)}"
+    if chance.random() < 0.2:
+        target += chance.choice(("?limit=0", "?limit=2", "?cursor=1-x", "?state=none", "?state="))
+    head = f"{method} {target} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n"
+    return RawRequest(content=f"{head}Connection: close\r\n\r\n".encode())
+
+
+def with_ids(request: RawRequest, ids: Mapping[str, str]) -> RawRequest:
+    """The request about fits and a product that there are; ids are all of one length."""
+    content = request.content
+    for stands_for, found in ids.items():
+        content = content.replace(stands_for.encode(), found.encode())
+    return RawRequest(content=content, is_well_framed=request.is_well_framed)
+
+
+def _path(chance: random.Random) -> str:
+    fit = FIT_ID if chance.random() < 0.9 else chance.choice(IDS)
+    return f"/v1/fits/{fit}/products"
+
+
+def _document(chance: random.Random) -> dict[str, Any]:
+    """A request of a kind, mostly of its schema; half of all are quickly made."""
+    kind = chance.choice((*KINDS, "caricature", "pose", "pose", "bust"))
+    match kind:
+        case "caricature":
+            return {"kind": kind, "factor": chance.choice(FACTORS)}
+        case "pose":
+            parts = chance.sample(PARTS, chance.randint(0, 3))
+            return {
+                "kind": kind,
+                "pose": chance.choice(POSES),
+                "rotations": {part: _rotation(chance) for part in parts},
+            }
+        case "animation":
+            # Of the walk that ships with the package no more than a moment.
+            return {"kind": kind, "start_s": chance.choice((0, 0.5)), "duration_s": 0.05}
+        case "texture":
+            colours = chance.choice(("picture", "albedo", "own"))
+            return {"kind": kind, "colours": colours, "size": chance.choice((512, 512, 700))}
+        case "composition":
+            return {"kind": kind, "age_years": chance.choice((None, 0, 17.5, 40, 120, 121))}
+        case "size":
+            return {
+                "kind": kind,
+                **chance.choice(({"chart_csv": chart_table(chance)},) * 2 + ({},)),
+                "ease": chance.choice(({}, {}, {"chest_girth": 4}, {"waist": 1}, {"weight": 1e9})),
+            }
+        case _:
+            return {"kind": kind}
+
+
+def chart_table(chance: random.Random) -> str:
+    """A size chart as CSV, sound or not."""
+    head = chance.choice(CHART_HEADS)
+    by = ";" if ";" in head else ","
+    rows = [
+        by.join([chance.choice("SML"), *chance.choices(CHART_CELLS[:4] * 4 + CHART_CELLS, k=2)])
+        for _ in range(chance.choice((0, 1, 2, 3, 3, 3, 201)))
+    ]
+    return "\n".join([head, *rows])
+
+
+def _rotation(chance: random.Random) -> Any:
+    if chance.random() < 0.2:
+        return chance.choice(NASTY)
+    largest = chance.choice((0.2, 0.2, 0.2, 3.2, 6.2832, 7.0))
+    return [chance.uniform(-largest, largest) for _ in range(chance.choice((3, 3, 4, 2, 5)))]

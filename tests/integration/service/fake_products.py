@@ -1,0 +1,77 @@
+"""What the simulated pipeline makes of a fit: results and files of some kinds, without numbers."""
+
+from api_schemas.problems import FieldProblem
+from api_schemas.products.animation import AnimationOptions, AnimationResult
+from api_schemas.products.base import BodyColours, ProductResult
+from api_schemas.products.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.products.composition import CompositionOptions, CompositionResult
+from api_schemas.products.pose import PoseOptions, PoseResult
+from api_schemas.products.texture import TextureColours, TextureOptions, TextureResult
+from service.jobs.inputs import CLIP, TEXTURE
+from service.worker.pipeline_port import Made, ProductInput, UnusableInputError
+
+LARGEST_FACTOR = 6.0
+"""Of a caricature."""
+
+
+def made_product(product: ProductInput) -> Made[ProductResult]:
+    match product.options:
+        case CaricatureOptions(factor=factor) if factor > LARGEST_FACTOR:
+            raise UnusableInputError(
+                FieldProblem(
+                    field="factor",
+                    code="factor-unusable",
+                    reason="The surface turns inside out.",
+                    remedy=f"Send a factor from 0 to {LARGEST_FACTOR}.",
+                    largest=LARGEST_FACTOR,
+                )
+            )
+        case CaricatureOptions(factor=factor):
+            result = CaricatureResult(
+                factor=factor,
+                coefficient=1,
+                before=1.5,
+                after=1.5 * factor,
+                height_m=1.8,
+                shape=(0.0, 1.5 * factor),
+            )
+            return Made(result=result, files={"body_caricature.glb": b"glTF"})
+        case TextureOptions(colours=colours, size=size):
+            own = colours is TextureColours.OWN
+            assert own is (TEXTURE in product.files)
+            result = TextureResult(
+                colours=colours,
+                size=len(product.files[TEXTURE]) if own else size,
+                seen_share=0.4,
+                mirrored_share=0.1,
+                scale=1.0,
+            )
+            return Made(result=result, files={"body_textured.glb": b"glTF", "texture.png": b"PNG"})
+        case AnimationOptions():
+            result = AnimationResult(
+                source=product.files.get(CLIP, b"a walk").decode()[:40],
+                frames=2,
+                frame_time_s=0.04,
+                morph_targets=1,
+                morph_mean_error_mm=0.0,
+                morph_largest_error_mm=0.0,
+                skin_mean_error_mm=0.0,
+                skin_largest_error_mm=0.0,
+                sliding_mm=0.0,
+                travelled_m=0.0,
+                warnings=(),
+            )
+            return Made(result=result, files={"body_animated.glb": b"glTF"})
+        case PoseOptions():
+            return Made(
+                result=PoseResult(pose=(), colours=BodyColours.PLAIN),
+                files={"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"},
+            )
+        case CompositionOptions(age_years=age):
+            result = CompositionResult(
+                age_years=age, bmi=22.0, bmi_standard_error=1.0, estimates=()
+            )
+            return Made(result=result, files={"composition.csv": b"name,percent\r\n"})
+        case other:
+            message = f"the fake makes no {other.kind}"
+            raise NotImplementedError(message)
