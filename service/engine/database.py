@@ -10,7 +10,6 @@ from typing import Any, Final
 import sqlalchemy as sa
 from sqlalchemy import event
 from sqlalchemy.exc import ArgumentError, DBAPIError
-from sqlalchemy.schema import CreateColumn
 
 from service.engine.availability import refusal, retry_while_database_is_away
 from service.engine.port import DatabaseUnusableError
@@ -27,7 +26,7 @@ from service.setting_types import without_secrets
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created and facts are settled."""
 
-SCHEMA_VERSION: Final = "7"
+SCHEMA_VERSION: Final = "8"
 SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {
@@ -88,7 +87,7 @@ def check_database(url: str) -> None:
 
 @retry_while_database_is_away
 def prepare_database(url: str) -> None:
-    """Create or migrate all tables; safe to run in several processes at once.
+    """Create all tables; safe to run in several processes at once.
 
     Waits and raises as :func:`check_database` does.
     """
@@ -101,7 +100,7 @@ def prepare_database(url: str) -> None:
             prepare_file(engine)
         DBOS.migrate(url)
         with locked(engine) as connection:
-            _bring_up_to_date(connection)
+            METADATA.create_all(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
 
 
@@ -158,30 +157,6 @@ def _check_schema(engine: sa.Engine) -> None:
             "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
         )
         raise DatabaseUnusableError(message)
-
-
-def _bring_up_to_date(connection: sa.Connection) -> None:
-    """Make the tables that are missing, and add the columns that are missing in others.
-
-    An earlier version did not make them, and its processes may still run. A version only ever adds:
-    tables, and columns that may be left out of an insert. Processes of the earlier version go on as
-    they are, and can be started again. A change that they could not live with needs another
-    ``SCHEMA_VERSION``.
-    """
-    METADATA.create_all(connection)
-    inspector = sa.inspect(connection)
-    for table in METADATA.sorted_tables:
-        there = {column["name"] for column in inspector.get_columns(table.name)}
-        for column in table.columns:
-            if column.name not in there:
-                _add(connection, column)
-
-
-def _add(connection: sa.Connection, column: sa.Column[object]) -> None:
-    dialect = connection.dialect
-    table = dialect.identifier_preparer.format_table(column.table)
-    definition = CreateColumn(column).compile(dialect=dialect)
-    connection.execute(sa.text(f"ALTER TABLE {table} ADD COLUMN {definition}"))
 
 
 BUSY_TIMEOUT_MS: Final = 30_000

@@ -1,0 +1,26 @@
+"""A database of another version is refused with one sentence, and not changed."""
+
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+
+from service.engine.database import check_database, open_database, prepare_database
+from service.engine.port import DatabaseUnusableError
+
+
+def test_tables_of_another_version_are_refused(tmp_path: Path):
+    url = f"sqlite:///{tmp_path / 'maquette.sqlite'}"
+    for _ in range(2):
+        prepare_database(url)
+    check_database(url)
+    database = open_database(url, connections=1)
+    with database.begin() as connection:
+        connection.execute(
+            sa.text("UPDATE maquette_facts SET value = '7' WHERE name = 'schema_version'")
+        )
+    database.dispose()
+    for begin in (check_database, prepare_database):
+        with pytest.raises(DatabaseUnusableError, match="tables 7, here 8") as refused:
+            begin(url)
+        assert "\n" not in str(refused.value)
