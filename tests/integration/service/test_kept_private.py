@@ -104,16 +104,6 @@ def test_whom_to_tell_and_the_secret_were_never_in_the_database(
     assert not [each for each in machine.data_dir.rglob("*") if SECRET.encode() in content(each)]
 
 
-def test_a_retry_tells_the_same_receiver_with_the_same_secret(service: Service, receiver: Receiver):
-    first = told(service, receiver)
-    second = service.client.post(f"{first}/retry").headers["Location"]
-    service.client.delete(first)
-    service.ended(second)
-    eventually(lambda: len(receiver.notices) == 2, what="the retry is told")
-    assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
-    assert [notice.path for notice in receiver.notices] == [PATH, PATH]
-
-
 def written(url: str) -> bytes:
     """All of the tables' files, with the rows that were deleted and not yet taken away."""
     with psycopg.connect(url, autocommit=True) as connection:
