@@ -1,5 +1,5 @@
-// The wire types, by short names; schema.d.ts is made from the service's own openapi.json.
-import type { components } from "./schema";
+// The wire types, by short names; generated/schema.d.ts is made from the service's own openapi.json.
+import type { components } from "../../generated/schema";
 
 type Schemas = components["schemas"];
 

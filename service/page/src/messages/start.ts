@@ -25,7 +25,7 @@ export const start = {
       sample: "A man stands at ease, a hand on his hip, lit from the left",
       woman: "A woman stands upright, arms and legs apart",
       arm_across: "A heavy man holds an arm before his belly",
-      pair: "A woman stands upright; her side is seen in another picture",
+      pair: "A small woman from the front; another picture shows her side",
     },
   },
   notShown: (name: string) => `${name} is not a picture this browser can show. Take a JPEG, PNG or WebP.`,
