@@ -1,4 +1,4 @@
-"""Points that a detector proposes: to be looked at, corrected and sent with a fit."""
+"""Points that a detector proposes, and what is wrong with the picture: before it is fitted."""
 
 from typing import Literal
 
@@ -6,25 +6,42 @@ from pydantic import Field
 
 from api_schemas.base import Place, WireModel
 from api_schemas.images import ImageId
-from api_schemas.points import PointSource
-from api_schemas.results import FitWarning
+from api_schemas.person import HeightM
+from api_schemas.picture import LaidOut, Lens
+from api_schemas.points import NamedPoint, Points, PointsFormat, PointSource
+from api_schemas.results import Assumption, Finding, FitWarning
+from fitter.vocabulary.choices import Gender, ViewKind
+from fitter.vocabulary.outcomes import SeenFrom
 from fitter.vocabulary.points import PointName
 
 
-class PointsRequest(WireModel):
-    """Of whom points are wanted, and what else."""
+class PointsRequest(Lens):
+    """What is said of a picture, and what is wanted of it; nothing needs to be said."""
 
+    image_id: ImageId | None = Field(
+        default=None, description="The uploaded picture, where none comes with the request."
+    )
+    view: ViewKind | None = Field(
+        default=None, description="From where the person is to be seen; not checked if left out."
+    )
     person: Place | None = Field(
         default=None,
         description="Place among the persons found; the largest and surest if left out.",
     )
+    points: Points = Field(
+        default_factory=dict[PointName, NamedPoint],
+        description=(
+            "Points that are known, pixels of the picture as a browser shows it. They say who of "
+            "several people is meant; where the service has no detector, what they tell is all "
+            "that is checked of the person."
+        ),
+    )
+    format: LaidOut = PointsFormat.NAMED
+    gender: Gender | None = Field(
+        default=None, description="Says what height is assumed if none is given."
+    )
+    height_m: HeightM | None = None
     mask: bool = Field(default=False, description="Whether the person's mask is wanted too.")
-
-
-class PointsOfImage(PointsRequest):
-    """The same of a picture that was uploaded before."""
-
-    image_id: ImageId
 
 
 class PictureSize(WireModel):
@@ -57,16 +74,31 @@ class ProposedPoint(WireModel):
     expected_error_px: float = Field(ge=0.0)
 
 
+class NotChecked(WireModel):
+    """A check that could not be made, and why."""
+
+    code: str
+    reason: str
+
+
 class PointsProposal(WireModel):
-    """Who is in the picture, and where one of them has which point.
+    """Who is in the picture, where one of them has which point, and what is wrong with it.
 
     Pixels of the picture as a browser shows it, of ``image_size``. ``persons`` has the largest and
     surest first; ``points`` are those of the ``person`` at that place, null where there is nobody.
     ``points`` can be sent as those of a fit or an initial pose. ``doubtful`` names those that are
     to be looked at one by one.
 
-    Warnings: ``nobody-found``, ``several-people``, ``cut-off``, ``person-too-small``,
-    ``seen-from-behind``, ``limbs-crossed``, and what a fit says of a picture.
+    ``findings`` are those of a fit of the picture, most important first, and it is ``usable`` if
+    none ``blocks``; ``not_checked`` has those that nothing can be said of. ``lean_deg`` is how far
+    the person leans to the right of the picture from ankles to shoulders, null unless they stand
+    upright; ``distance_m`` how far the camera was, null unless the focal length is known.
+
+    Codes: ``nobody-found``, ``several-people``, ``cut-off``, ``person-too-small``,
+    ``picture-too-small``, ``other-view``, ``arms-against-trunk``, ``clothes-loose``, ``blurred``,
+    ``too-dark``, ``too-bright``, ``camera-rolled``, ``camera-too-near``, ``not-standing``,
+    ``child``, ``skin-not-found``; others may be added. Warnings are those of a fit, and
+    ``seen-from-behind`` and ``limbs-crossed``.
     """
 
     image_size: PictureSize
@@ -82,4 +114,11 @@ class PointsProposal(WireModel):
         ),
         json_schema_extra={"contentEncoding": "base64", "contentMediaType": "image/png"},
     )
+    usable: bool
+    findings: tuple[Finding, ...]
+    not_checked: tuple[NotChecked, ...]
+    seen_from: SeenFrom | None
+    lean_deg: float | None
+    distance_m: float | None
+    assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]

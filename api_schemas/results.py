@@ -240,8 +240,8 @@ class ViewResult(WireModel):
     limb_facing: tuple[LimbFacing, ...]
     findings: tuple[Finding, ...] = Field(
         description=(
-            "As of `POST /v1/checks`; what `blocks` withholds the measurements, what `harms` "
-            "widens those that it harms. Not of checks: `contradicted`, no person was measured; "
+            "As of `POST /v1/points`; what `blocks` withholds the measurements, what `harms` "
+            "widens those that it harms. Of a fit alone: `contradicted`, no person was measured; "
             "`covered`, something is before or beside the person."
         )
     )

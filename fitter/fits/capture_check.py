@@ -1,4 +1,4 @@
-"""The checks of an encoded picture: decoded and reduced just as a fit does it."""
+"""What there is to check of a picture, asked about or fitted: reduced just as a fit does it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -7,24 +7,23 @@ import numpy as np
 
 from fitter.arrays import Image, Points3D
 from fitter.capture.capture import Capture, Directions
-from fitter.capture.checking import Checked, check_capture
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.energies.objective import Candidate
+from fitter.errors import InvalidInputError
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
 from fitter.fits.outlined import Outlined
-from fitter.fits.proposal import chosen_person
 from fitter.observation.clicks import check_places, scaled_clicks
 from fitter.observation.colour import bytes_of_display
-from fitter.observation.decoding import DecodedPicture, decode_picture
+from fitter.observation.decoding import DecodedPicture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import (
     display_working_picture,
     linear_working_picture,
     working_size,
 )
-from fitter.observation.subject import MEAN_HEIGHT_M, check_height
+from fitter.observation.subject import MEAN_HEIGHT_M
 from fitter.observation.worn import WornRegion
-from fitter.remarks import Assumption, FitWarning
+from fitter.remarks import Assumption
 from fitter.request import Click
 from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
 from fitter.segmentation.skin_colour import PersonRegions
@@ -58,57 +57,17 @@ class CaptureQuestion:
     focal_length_35mm: float | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CaptureCheck:
-    """What the checks say, of a picture of this size, with what they assumed.
-
-    ``warnings`` are of decoding.
-    """
-
-    width: int
-    height: int
-    checked: Checked
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
-
-
-def check_picture(
-    image: bytes, question: CaptureQuestion, *, detector: Detector | None, max_pixels: int
-) -> CaptureCheck:
-    """Decode a picture, look for people in it and make every check that can be made.
-
-    Parameters
-    ----------
-    image
-        The encoded picture.
-    detector
-        None where there is none: then only what the points and the picture tell is checked.
-    max_pixels
-        Largest picture accepted, checked before decoding.
+def capture_of(
+    picture: DecodedPicture, question: CaptureQuestion, *, detector: Detector | None
+) -> Capture:
+    """What there is to check of a decoded picture.
 
     Raises
     ------
     InvalidInputError
-        As :func:`fitter.observation.decoding.decode_picture`, ``person-unknown``,
-        ``out-of-range``, or as :func:`fitter.observation.focal_length.focal_length` and
+        ``person-unknown``, or as :func:`fitter.observation.focal_length.focal_length` and
         :func:`fitter.observation.clicks.check_places`.
     """
-    check_height(question.height_m)
-    picture = decode_picture(image, field="image", max_pixels=max_pixels)
-    capture = capture_of(picture, question, detector=detector)
-    return CaptureCheck(
-        width=capture.width,
-        height=capture.height,
-        checked=check_capture(capture),
-        assumptions=_assumed(question, capture.height_m),
-        warnings=picture.warnings,
-    )
-
-
-def capture_of(
-    picture: DecodedPicture, question: CaptureQuestion, *, detector: Detector | None
-) -> Capture:
-    """What there is to check of a decoded picture; raises as :func:`check_picture`."""
     height, width = picture.pixels.shape[:2]
     check_places(question.points, width=width, height=height)
     focal = focal_length(
@@ -227,8 +186,22 @@ def _meant(
 ) -> DetectedBody | None:
     if points and person is None:
         return body_of_clicks(bodies, points)
-    chosen = chosen_person(len(bodies), person)
+    chosen = _chosen_person(len(bodies), person)
     return None if chosen is None else bodies[chosen]
+
+
+def _chosen_person(count: int, person: int | None) -> int | None:
+    """Index of the one who is meant of so many; None of nobody."""
+    if count == 0:
+        return None
+    if person is not None and person >= count:
+        raise InvalidInputError(
+            code="person-unknown",
+            field="person",
+            reason=f"There is no person {person}: {count} were found, counted from 0.",
+            remedy="Send the place of one of `persons`, or leave it out for the largest.",
+        )
+    return person or 0
 
 
 def _height_m(question: CaptureQuestion) -> float:
@@ -237,7 +210,8 @@ def _height_m(question: CaptureQuestion) -> float:
     return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]
 
 
-def _assumed(question: CaptureQuestion, height_m: float) -> tuple[Assumption, ...]:
+def assumed_height(question: CaptureQuestion, height_m: float) -> tuple[Assumption, ...]:
+    """The height that was taken where none is said."""
     if question.height_m is not None:
         return ()
     whose = "people" if question.gender is None else f"the gender ({question.gender.value})"

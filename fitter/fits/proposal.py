@@ -1,4 +1,4 @@
-"""What the detector proposes for a picture, before any fit is requested.
+"""What is proposed for a picture, and what is wrong with it, before any fit is requested.
 
 The picture is decoded and reduced just as in a fit, so that the points are those a fit would
 propose to itself.
@@ -11,21 +11,16 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from fitter.capture.capture import box_of
+from fitter.capture.capture import Capture, box_of
+from fitter.capture.checking import Checked, check_capture
 from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody, Detector
-from fitter.errors import InvalidInputError
+from fitter.fits.capture_check import CaptureQuestion, assumed_height, capture_of
 from fitter.fits.proposal_warnings import proposal_warnings
 from fitter.observation.clicks import scaled_clicks
-from fitter.observation.colour import bytes_of_display
-from fitter.observation.decoding import DecodedPicture, decode_picture
-from fitter.observation.resampling import (
-    WorkingSize,
-    display_working_picture,
-    linear_working_picture,
-    working_size,
-)
-from fitter.remarks import FitWarning
+from fitter.observation.decoding import decode_picture
+from fitter.observation.subject import check_height
+from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
 
 CIRCLE_RADIUS_M = 0.95
@@ -65,20 +60,26 @@ class ProposedPoint:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Proposal:
-    """Who is in a picture, and what is proposed for one of them.
+    """Who is in a picture, what is proposed for one of them, and what is wrong with the picture.
 
     Attributes
     ----------
     width, height
         Size of the upright original, to whose pixels everything refers.
     persons
-        Everybody found, the largest and most certain first.
+        Everybody found, the largest and most certain first; nobody without a detector.
     person
         Index of the one whose points these are; None if nobody was found.
     points
         By canonical name; points outside the picture are left out.
     mask
         (height, width) 8 bits, probability that a pixel shows the person; None unless asked for.
+    checked
+        What the checks say, as of a fit of the picture.
+    assumptions
+        What the checks assumed.
+    warnings
+        Of decoding, and of what to look at in the points.
     """
 
     width: int
@@ -87,78 +88,56 @@ class Proposal:
     person: int | None
     points: Mapping[str, ProposedPoint]
     mask: UInt8[np.ndarray, "h w"] | None
+    checked: Checked
+    assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
 
 def propose(
-    image: bytes, *, detector: Detector, max_pixels: int, person: int | None, with_mask: bool
+    image: bytes,
+    question: CaptureQuestion,
+    *,
+    detector: Detector | None,
+    max_pixels: int,
+    with_mask: bool = False,
 ) -> Proposal:
-    """Decode a picture and propose the points of a person in it.
+    """Decode a picture, propose the points of a person in it and make every check that can be made.
 
     Parameters
     ----------
     image
         The encoded picture.
+    detector
+        None where there is none: nothing is proposed, and what points and picture tell is checked.
     max_pixels
         Largest picture accepted, checked before decoding.
-    person
-        Index among those found; None takes the largest.
     with_mask
         Whether to return the person's mask too.
 
     Raises
     ------
     InvalidInputError
-        As :func:`fitter.observation.decoding.decode_picture`, or ``person-unknown``.
+        ``out-of-range``, or as :func:`fitter.observation.decoding.decode_picture` and
+        :func:`fitter.fits.capture_check.capture_of`.
     """
+    check_height(question.height_m)
     picture = decode_picture(image, field="image", max_pixels=max_pixels)
-    return proposal_of(picture, detector=detector, person=person, with_mask=with_mask)
-
-
-def proposal_of(
-    picture: DecodedPicture, *, detector: Detector, person: int | None, with_mask: bool
-) -> Proposal:
-    """As :func:`propose`, for a picture that is already decoded."""
-    height, width = picture.pixels.shape[:2]
-    size = working_size(width=width, height=height)
-    working = display_working_picture(linear_working_picture(picture.pixels, size))
-    bodies = detector.bodies(bytes_of_display(working))
-    chosen = chosen_person(len(bodies), person)
-    body = None if chosen is None else bodies[chosen]
+    capture = capture_of(picture, question, detector=detector)
+    bodies, body = capture.bodies or (), capture.body
     return Proposal(
-        width=width,
-        height=height,
+        width=capture.width,
+        height=capture.height,
         persons=tuple(
-            ProposedPerson(box=_box(each, size.scale), score=each.person.score) for each in bodies
+            ProposedPerson(box=_box(each, capture.scale), score=each.person.score)
+            for each in bodies
         ),
-        person=chosen,
-        points={} if body is None else _points(body, size.scale),
-        mask=_mask(body, size, width=width, height=height)
-        if with_mask and body is not None
-        else None,
-        warnings=picture.warnings
-        + proposal_warnings(bodies, chosen, was_chosen=person is not None),
+        person=next((place for place, each in enumerate(bodies) if each is body), None),
+        points={} if body is None else _points(body, capture.scale),
+        mask=_mask(body, capture) if with_mask and body is not None else None,
+        checked=check_capture(capture),
+        assumptions=assumed_height(question, capture.height_m),
+        warnings=picture.warnings + (() if body is None else proposal_warnings(body.points)),
     )
-
-
-def chosen_person(count: int, person: int | None) -> int | None:
-    """Index of the one who is meant of so many; None of nobody.
-
-    Raises
-    ------
-    InvalidInputError
-        ``person-unknown``.
-    """
-    if count == 0:
-        return None
-    if person is not None and person >= count:
-        raise InvalidInputError(
-            code="person-unknown",
-            field="person",
-            reason=f"There is no person {person}: {count} were found, counted from 0.",
-            remedy="Send the place of one of `persons`, or leave it out for the largest.",
-        )
-    return person or 0
 
 
 def _points(body: DetectedBody, scale: float) -> dict[str, ProposedPoint]:
@@ -178,19 +157,17 @@ def _box(body: DetectedBody, scale: float) -> Box:
     return left, top, right, bottom
 
 
-def _mask(
-    body: DetectedBody, size: WorkingSize, *, width: int, height: int
-) -> UInt8[np.ndarray, "h w"]:
+def _mask(body: DetectedBody, capture: Capture) -> UInt8[np.ndarray, "h w"]:
     """The mask at the original's size; beyond the working picture, its border is repeated."""
     coded = np.rint(255.0 * np.clip(body.mask, 0.0, 1.0)).astype(np.uint8)
-    if size.scale == 1.0:
+    if capture.scale == 1.0:
         return coded
-    shift = 0.5 * size.scale - 0.5
-    between_centres = np.array([[size.scale, 0.0, shift], [0.0, size.scale, shift]])
+    shift = 0.5 * capture.scale - 0.5
+    between_centres = np.array([[capture.scale, 0.0, shift], [0.0, capture.scale, shift]])
     return cv2.warpAffine(
         coded,
         between_centres,
-        (width, height),
+        (capture.width, capture.height),
         flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
         borderMode=cv2.BORDER_REPLICATE,
     )

@@ -9,7 +9,6 @@ from anyio import CapacityLimiter, to_thread
 from pydantic import BaseModel
 
 from api_schemas.bodies import BodyEstimate
-from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import Problem
 from api_schemas.proposals import PointsProposal, PointsRequest
@@ -94,19 +93,12 @@ class Estimates:
         return _parsed(InitialPose, await self._answer(questions.INITIAL_POSE, task))
 
     async def points(self, asked: PointsRequest, image: bytes) -> ProposedPoints:
-        """Propose the points of a person in an encoded picture; raises as :meth:`body` does.
+        """Propose the points of a person in an encoded picture, of whom known points are named.
 
-        Also 404 where the detector is not installed.
+        Raises as :meth:`body` does, and 404 where the detector is not installed.
         """
         parts = await self._answer(questions.POINTS, asked, image)
         return ProposedPoints(proposal=_parsed(PointsProposal, parts), mask=parts[FILE])
-
-    async def check(self, asked: CheckRequest, image: bytes) -> CaptureCheck:
-        """Say what is wrong with an encoded picture, whose points are named.
-
-        Raises as :meth:`points` does.
-        """
-        return _parsed(CaptureCheck, await self._answer(questions.CHECK, asked, image))
 
     async def convert(self, glb: bytes, kind: MeshFormat) -> bytes:
         """Write the body of a GLB file in another format; raises as :meth:`body` does."""

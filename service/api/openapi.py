@@ -11,7 +11,6 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
@@ -19,7 +18,7 @@ from api_schemas.jobs import EventData
 from api_schemas.problems import Problem
 from api_schemas.products import ProductRequest
 from api_schemas.products.texture import TEXTURE_SIZES
-from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
+from api_schemas.proposals import PointsProposal, PointsRequest
 from api_schemas.webhooks import WebhookEvent
 from fitter.vocabulary.measurements import (
     CHIEF,
@@ -289,9 +288,6 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             BodyRequest,
             InitialPoseRequest,
             PointsRequest,
-            PointsOfImage,
-            CheckRequest,
-            CheckOfImage,
         )
     return (
         Problem,
@@ -299,7 +295,6 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
         BodyEstimate,
         InitialPose,
         PointsProposal,
-        CaptureCheck,
         UploadedImage,
         WebhookEvent,
     )

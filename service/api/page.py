@@ -21,7 +21,6 @@ LINKS: Final = {
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
     "points": "/v1/points",
-    "checks": "/v1/checks",
     "bodies": "/v1/bodies",
     "body_models": "/v1/body-models",
     "openapi": "/openapi.json",

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
@@ -12,7 +11,6 @@ from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
 from fitter.export.gltf import plain_glb
 from fitter.export.gltf_document import Frame
-from fitter.fits.capture_check import check_picture
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose
@@ -94,53 +92,33 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
 def points(
     asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
 ) -> ProposedPoints:
-    """Propose the points of a person in an encoded picture.
+    """Propose the points of a person in an encoded picture, and say what is wrong with it.
+
+    The points that are known are named. Without a detector it says what they tell, if there are
+    any.
 
     Raises
     ------
     UnusableInputError
         If the picture or what is asked of it is at fault.
     ProblemError
-        If there is no detector.
+        If there is no detector, and there are no points.
     """
+    question = translate.capture_question(asked)
     try:
         found = propose(
             image,
-            detector=installed_detector(detector),
+            question,
+            detector=_detector(detector, needed=not question.points),
             max_pixels=max_pixels,
-            person=asked.person,
             with_mask=asked.mask,
         )
-    except DetectorUnavailableError as error:
-        raise ProblemError(no_detector()) from error
     except MemoryError as error:
         raise UnusableInputError(_TOO_MUCH_MEMORY) from error
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
     mask = b"" if found.mask is None else translate.grey_png(found.mask)
     return ProposedPoints(proposal=translate.points_proposal(found), mask=mask)
-
-
-def check(
-    request: CheckRequest, image: bytes, *, max_pixels: int, detector: Path | None
-) -> CaptureCheck:
-    """Say what is wrong with an encoded picture, whose points are named; raises as ``points`` does.
-
-    Without a detector it says what points tell, if there are any.
-    """
-    asked = translate.capture_question(request)
-    try:
-        found = check_picture(
-            image,
-            asked,
-            detector=_detector(detector, needed=not asked.points),
-            max_pixels=max_pixels,
-        )
-    except MemoryError as error:
-        raise UnusableInputError(_TOO_MUCH_MEMORY) from error
-    except InvalidInputError as error:
-        raise UnusableInputError(field_problem(error)) from error
-    return translate.capture_check(found)
 
 
 def conversion(task: ConversionTask, glb: bytes) -> bytes:
@@ -180,7 +158,6 @@ TASKS = estimate_tasks(
     body=body,
     initial_pose=initial_pose,
     points=points,
-    check=check,
     conversion=conversion,
     jpeg=jpeg,
 )

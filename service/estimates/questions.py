@@ -13,7 +13,6 @@ from pydantic import BaseModel
 
 from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.proposals import PointsProposal, PointsRequest
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
@@ -21,7 +20,6 @@ from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 BODY: Final = "body"
 INITIAL_POSE: Final = "initial_pose"
 POINTS: Final = "points"
-CHECK: Final = "check"
 CONVERSION: Final = "conversion"
 JPEG: Final = "jpeg"
 
@@ -73,7 +71,6 @@ def estimate_tasks(
     body: Callable[[BodyTask, Path | None], EstimatedBody],
     initial_pose: Callable[[InitialPoseTask, Path | None], InitialPose],
     points: Callable[..., ProposedPoints],
-    check: Callable[..., CaptureCheck],
     conversion: Callable[[ConversionTask, bytes], bytes],
     jpeg: Callable[..., bytes],
 ) -> Mapping[str, Task]:
@@ -96,15 +93,6 @@ def estimate_tasks(
         )
         return _answered(found.proposal, found.mask)
 
-    def check_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
-        found = check(
-            CheckRequest.model_validate_json(parts[QUESTION]),
-            parts[FILE],
-            max_pixels=setup.max_pixels,
-            detector=setup.detector,
-        )
-        return _answered(found)
-
     def conversion_task(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
         asked = ConversionTask.model_validate_json(parts[QUESTION])
         return {FILE: conversion(asked, parts[FILE])}
@@ -116,7 +104,6 @@ def estimate_tasks(
         BODY: body_task,
         INITIAL_POSE: initial_pose_task,
         POINTS: points_task,
-        CHECK: check_task,
         CONVERSION: conversion_task,
         JPEG: jpeg_task,
     }

@@ -9,13 +9,11 @@ from jaxtyping import Float, UInt8
 from PIL import Image
 
 from api_schemas import bodies as wire_bodies
-from api_schemas import checks as wire_checks
 from api_schemas import initial_poses as wire_poses
 from api_schemas import proposals as wire_proposals
-from api_schemas import results as wire_results
 from api_schemas.points import PointSource
 from fitter.body.model import BodyModel
-from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
+from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
@@ -28,7 +26,6 @@ from service.worker.fit_results import (
     body_result,
     camera_result,
     finding_results,
-    rounded_box,
     rounded_parameters,
     warning_results,
 )
@@ -72,33 +69,11 @@ def initial_pose(
             for reading in initial.limbs
         ),
         assumptions=assumption_results(initial.assumptions),
-        warnings=tuple(
-            wire_results.FitWarning(code=each.code, message=each.message)
-            for each in initial.warnings
-        ),
+        warnings=warning_results(initial.warnings),
     )
 
 
-def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
-    """Translate a proposal; the caller adds its mask."""
-    points: dict[PointName, wire_proposals.ProposedPoint] = {
-        cast("PointName", name): _proposed_point(point) for name, point in found.points.items()
-    }
-    return wire_proposals.PointsProposal(
-        image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
-        persons=tuple(
-            wire_proposals.FoundPerson(box=each.box, score=each.score) for each in found.persons
-        ),
-        person=found.person,
-        points=points,
-        doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
-        warnings=tuple(
-            wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
-        ),
-    )
-
-
-def capture_question(asked: wire_checks.CheckRequest) -> CaptureQuestion:
+def capture_question(asked: wire_proposals.PointsRequest) -> CaptureQuestion:
     """Translate what is said of a picture; points are named."""
     return CaptureQuestion(
         view=asked.view,
@@ -111,25 +86,31 @@ def capture_question(asked: wire_checks.CheckRequest) -> CaptureQuestion:
     )
 
 
-def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
-    """Translate what the checks of a picture say."""
+def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
+    """Translate a proposal; the caller adds its mask."""
+    points: dict[PointName, wire_proposals.ProposedPoint] = {
+        cast("PointName", name): _proposed_point(point) for name, point in found.points.items()
+    }
     checked = found.checked
-    return wire_checks.CaptureCheck(
+    return wire_proposals.PointsProposal(
         image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
+        persons=tuple(
+            wire_proposals.FoundPerson(box=each.box, score=each.score) for each in found.persons
+        ),
+        person=found.person,
+        points=points,
+        doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
         usable=checked.usable,
         findings=finding_results(checked.findings),
         not_checked=tuple(
-            wire_checks.NotChecked(code=each.code.value, reason=each.reason)
+            wire_proposals.NotChecked(code=each.code.value, reason=each.reason)
             for each in checked.unchecked
         ),
-        box=rounded_box(checked.box),
         seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
         assumptions=assumption_results(found.assumptions),
-        warnings=tuple(
-            wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
-        ),
+        warnings=warning_results(found.warnings),
     )
 
 

@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from api_schemas.checks import CheckRequest
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point, PointsFormat
 from api_schemas.problems import FieldProblem
+from api_schemas.proposals import PointsRequest
 from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY, decodes_heif
 from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
@@ -171,7 +171,7 @@ def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
         )
 
 
-def placed_question(asked: CheckRequest, image: bytes, *, max_pixels: int) -> CheckRequest:
+def placed_question(asked: PointsRequest, image: bytes, *, max_pixels: int) -> PointsRequest:
     """The request with named points, which lie in the picture; that is not decoded.
 
     Raises

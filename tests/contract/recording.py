@@ -161,9 +161,8 @@ def _estimates(
         ("initial-poses", "", "size-alone", known | {"image_size": {"width": 720, "height": 960}}),
         ("points", "standing", "largest-person", {"image_id": image}),
         ("points", "", "person-and-mask", {"image_id": image, "person": 0, "mask": True}),
-        ("checks", "good-picture", "front", {"image_id": image, "view": "front"}),
         (
-            "checks",
+            "points",
             "camera-too-near",
             "lens-and-height",
             {"image_id": image, "view": "front", "height_m": 1.555, "focal_length_35mm": 14},

@@ -46,16 +46,16 @@ def test_a_heic_gives_the_measurements_of_the_jpeg(client: httpx.Client):
     assert client.get(job["links"]["files"]["views/0/image"]).content == HEIC
 
 
-def test_a_scan_of_heics_succeeds(client: httpx.Client):
+def test_two_heics_are_fitted_together(client: httpx.Client):
     request = {
         "gender": "male",
         "height_m": 1.804,
         "cues": "SE",
-        "views": [{"view": "front", "points": "auto"}, {"view": "other", "points": "auto"}],
+        "views": [{"view": "front"}, {"view": "other"}],
     }
     answer = client.post(
-        "/v1/scans",
-        files={"image_0": HEIC, "image_1": HEIC},
+        "/v1/fits",
+        files=[("image", HEIC), ("image", HEIC)],
         data={"request": json.dumps(request)},
     )
     job = ended_job(client, answer)

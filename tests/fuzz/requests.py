@@ -47,13 +47,13 @@ FIT = PERSON | {"cues": "SE", "optimizer": "gauss_newton", "views": [VIEW]}
 DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
     ("/v1/initial-poses", PERSON | SEEN | {"image_size": {"width": 72, "height": 96}}),
-    ("/v1/points", {"image_id": "0" * 64, "person": 0, "mask": True}),
     (
-        "/v1/checks",
+        "/v1/points",
         {
             "image_id": "0" * 64,
             "view": "side",
             "person": 0,
+            "mask": True,
             "points": POINTS,
             "height_m": 1.7,
             "focal_length_px": 90.0,
@@ -149,7 +149,7 @@ def checked_picture(chance: random.Random) -> RawRequest:
     """A damaged picture to check, of the same processes."""
     request = json.dumps({"view": "front", "focal_length_35mm": 26.0}).encode()
     return head_and_body(
-        "/v1/checks", MULTIPART, multipart({"image": picture(chance), "request": request})
+        "/v1/points", MULTIPART, multipart({"image": picture(chance), "request": request})
     )
 
 

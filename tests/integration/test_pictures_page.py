@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas import checks as wire
+from api_schemas import proposals as wire
 from fitter.capture import framing, people, picture_quality, posture
 from fitter.capture.finding import Code
 from fitter.fits import reporting
@@ -89,7 +89,7 @@ def test_what_harms_widens_errors_as_the_code_does():
 
 
 def test_they_are_those_of_the_wire():
-    described = re.findall(r"``([a-z-]+)``", (wire.CaptureCheck.__doc__ or "").split("Codes:")[1])
+    described = re.findall(r"``([a-z-]+)``", (wire.PointsProposal.__doc__ or "").split("Codes:")[1])
     assert set(CHECKS) - BY_FITS_ALONE <= set(described)
 
 
@@ -180,7 +180,6 @@ def test_the_figures_of_warnings_are_those_of_the_code():
     assert f"{reporting.MOST_TURNED_DEG:g} degrees" in OF_FITS["other-view"]
     assert f"{reporting.MOST_DEVIATIONS:g} standard errors" in OF_FITS["given-contradicted"]
     assert f"{SAME_PERSON_PROBABILITY:.0%}".replace("%", " %") in OF_FITS["different-people"]
-    assert f"{framing.LEAST_STATURE_PX:g} pixels" in OF_POINTS["person-too-small"]
     assert f"{decoding.LEAST_SIDE_PX} pixels" in REFUSALS["image-too-small"]
     assert f"{decoding.LARGEST_ASPECT_RATIO:g} times" in REFUSALS["image-too-narrow"]
 

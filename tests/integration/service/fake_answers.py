@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
-from api_schemas.checks import CaptureCheck, CheckRequest, Finding
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
@@ -21,7 +20,7 @@ from api_schemas.proposals import (
     PointsRequest,
     ProposedPoint,
 )
-from api_schemas.results import BodyResult, CameraResult, FitWarning, PartRotation
+from api_schemas.results import BodyResult, CameraResult, Finding, PartRotation
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
 from service.estimates.questions import (
@@ -40,6 +39,14 @@ from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MA
 GLB = b"glTF" + bytes(range(256))
 MASK = b"\x89PNG" + bytes(range(64))
 GATE = "FAKE_ANSWERS_GATE"
+NOBODY = Finding(
+    code="nobody-found",
+    severity=Severity.BLOCKS,
+    reason="0 people were found.",
+    remedy="Have one in the picture.",
+    points=(),
+    box=None,
+)
 KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 
@@ -115,10 +122,10 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
 def points(
     asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
 ) -> ProposedPoints:
-    """See as many people as the picture says; of one of them a nose."""
+    """See as many people as the picture says, of one of them a nose, and repeat what was asked."""
     del max_pixels, detector
     script = json.loads(image.partition(SCRIPT_MARK)[2])
-    if script.get("no_detector"):
+    if script.get("no_detector") and not asked.points:
         raise ProblemError(no_detector())
     if script.get("segfault"):
         ctypes.string_at(0)
@@ -148,40 +155,16 @@ def points(
             person=person if count else None,
             points={"nose": nose} if count else {},
             doubtful=(),
-            warnings=() if count else (FitWarning(code="nobody-found", message="Nobody."),),
+            usable=count > 0,
+            findings=() if count else (NOBODY,),
+            not_checked=(),
+            seen_from=None if asked.view is None else SeenFrom(asked.view.value),
+            lean_deg=float(len(asked.points)),
+            distance_m=asked.focal_length_px,
+            assumptions=(),
+            warnings=(),
         ),
         mask=MASK if asked.mask and count else b"",
-    )
-
-
-def check(
-    asked: CheckRequest, image: bytes, *, max_pixels: int, detector: Path | None
-) -> CaptureCheck:
-    """Find as many people as the picture says, and repeat what was asked."""
-    del max_pixels, detector
-    script = json.loads(image.partition(SCRIPT_MARK)[2])
-    if script.get("no_detector") and not asked.points:
-        raise ProblemError(no_detector())
-    found = script.get("people", 1)
-    nobody = Finding(
-        code="nobody-found",
-        severity=Severity.BLOCKS,
-        reason="0 people were found.",
-        remedy="Have one in the picture.",
-        points=(),
-        box=None,
-    )
-    return CaptureCheck(
-        image_size=PictureSize(width=640, height=480),
-        usable=found > 0,
-        findings=() if found else (nobody,),
-        not_checked=(),
-        box=(0.0, 0.0, 64.0, 48.0) if found else None,
-        seen_from=None if asked.view is None else SeenFrom(asked.view.value),
-        lean_deg=float(len(asked.points)),
-        distance_m=asked.focal_length_px,
-        assumptions=(),
-        warnings=(),
     )
 
 
@@ -229,7 +212,6 @@ TASKS = estimate_tasks(
     body=body,
     initial_pose=initial_pose,
     points=points,
-    check=check,
     conversion=conversion,
     jpeg=jpeg,
 )

@@ -87,7 +87,7 @@ def test_where_no_heic_is_decoded_it_is_refused_with_the_remedy(embedded: Machin
             files = {"image": ("photo.heic", HEIC)}
             for answer in (
                 service.client.post("/v1/images", files=files),
-                service.client.post("/v1/checks", files=files),
+                service.client.post("/v1/points", files=files),
                 service.client.post("/v1/fits", files=files, data={"request": json.dumps(REQUEST)}),
             ):
                 problem = checked(answer, 415)

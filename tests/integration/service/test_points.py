@@ -69,7 +69,23 @@ def test_nobody_is_an_answer_too(service: Service):
     )
     assert (proposal.persons, proposal.person, proposal.points) == ((), None, {})
     assert proposal.mask is None
-    assert [each.code for each in proposal.warnings] == ["nobody-found"]
+    assert not proposal.usable
+    assert [each.code for each in proposal.findings] == ["nobody-found"]
+
+
+def test_a_picture_is_checked_with_what_is_said_of_it(service: Service):
+    said = {"view": "side", "points": POINTS, "focal_length_px": 900.0}
+    answer = PointsProposal.model_validate_json(asked(service, request=said).content)
+    assert (answer.usable, answer.findings) == (True, ())
+    assert (answer.seen_from, answer.lean_deg, answer.distance_m) == ("side", len(POINTS), 900.0)
+
+
+def test_known_points_of_any_layout_are_named_and_may_be_few(service: Service):
+    landmarks = [{"x": 0.5, "y": 0.5, "visibility": 0.9}] * 33
+    said = {"points": landmarks, "format": "blazepose33"}
+    assert asked(service, request=said).json()["lean_deg"] == 21.0
+    one = asked(service, request={"points": {"nose": [100, 50]}})
+    assert one.json()["lean_deg"] == 1.0
 
 
 def test_one_of_several_people_can_be_chosen_and_their_mask_had(service: Service):
@@ -100,6 +116,10 @@ def test_an_uploaded_picture_is_asked_by_its_id(service: Service):
         ({"person": "first"}, 422, "person", "wrong-kind"),
         ({"mask": "yes"}, 422, "mask", "wrong-kind"),
         ({"persons": 1}, 422, "persons", "unknown-field"),
+        ({"view": "above"}, 422, "view", "unknown-value"),
+        ({"height_m": 170}, 422, "height_m", "out-of-range"),
+        ({"points": {"nose": [641, 5]}}, 422, "points.nose", "point-outside-image"),
+        ({"points": "auto"}, 422, "points", "wrong-kind"),
     ],
 )
 def test_a_question_that_cannot_be_is_refused_by_field(
@@ -132,6 +152,8 @@ def test_a_picture_that_ends_its_estimator_leaves_the_service_up(service: Servic
 def test_a_detector_that_the_estimator_cannot_load_is_told(service: Service):
     told = checked(asked(service, {"no_detector": True}), 404)
     assert told.code == "detector-not-installed"
+    points = asked(service, {"no_detector": True}, request={"points": POINTS})
+    assert points.status_code == 200
 
 
 def test_a_fit_whose_points_are_to_be_proposed_is_understood_so(service: Service):

@@ -9,11 +9,8 @@ from PIL import Image as PillowImage
 
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
-from fitter.fits.capture_check import (
-    CaptureCheck,
-    CaptureQuestion,
-    check_picture,
-)
+from fitter.fits.capture_check import CaptureQuestion
+from fitter.fits.proposal import Proposal, propose
 from fitter.request import Click
 from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
@@ -28,8 +25,8 @@ def sample() -> np.ndarray:
     return np.asarray(PillowImage.open(io.BytesIO(load_sample().image)).convert("RGB"))
 
 
-def checked(picture: np.ndarray, **said: object) -> CaptureCheck:
-    return check_picture(
+def checked(picture: np.ndarray, **said: object) -> Proposal:
+    return propose(
         encode(PillowImage.fromarray(np.ascontiguousarray(picture))),
         CaptureQuestion(**said),
         detector=installed_detector(),
@@ -37,7 +34,7 @@ def checked(picture: np.ndarray, **said: object) -> CaptureCheck:
     )
 
 
-def codes(check: CaptureCheck) -> list[str]:
+def codes(check: Proposal) -> list[str]:
     return [each.code.value for each in check.checked.findings]
 
 
@@ -100,7 +97,7 @@ def test_places_are_in_the_pixels_of_the_original_whatever_its_size():
 
 
 def test_the_distance_is_by_the_lens_in_the_file_the_given_one_or_none():
-    in_file = check_picture(
+    in_file = propose(
         load_sample().image,
         CaptureQuestion(height_m=1.804),
         detector=installed_detector(),
@@ -139,7 +136,7 @@ def test_without_a_detector_points_tell_their_part():
         "left_knee": Click(x=408, y=675), "right_knee": Click(x=295, y=658),
         "left_ankle": Click(x=398, y=822), "right_ankle": Click(x=296, y=830),
     }  # fmt: skip
-    check = check_picture(
+    check = propose(
         load_sample().image,
         CaptureQuestion(points=points, view=ViewKind.BACK, height_m=1.804),
         detector=None,

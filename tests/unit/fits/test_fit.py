@@ -8,9 +8,10 @@ import pytest
 from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
-from fitter.fits.capture_check import CaptureQuestion, check_picture
+from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Progress, Stage
+from fitter.fits.proposal import propose
 from fitter.request import FitRequest, KnownMeasurement, View
 from fitter.result import FitResult, before_shading
 from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
@@ -176,7 +177,7 @@ def test_every_picture_is_checked_as_before_a_fit(segmentation):
     question = CaptureQuestion(
         view=view.kind, points=view.clicks, gender=person.gender, height_m=person.height_m
     )
-    alone = check_picture(view.image, question, detector=detector, max_pixels=1_000_000)
+    alone = propose(view.image, question, detector=detector, max_pixels=1_000_000)
     assert {each.code for each in found} == {each.code for each in alone.checked.findings}
     assert "other-view" in {each.code for each in found}
 

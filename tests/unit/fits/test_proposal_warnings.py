@@ -1,12 +1,10 @@
 """Warnings of proposals, of people made up for it."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
-from fitter.detection.detector import DetectedBody, DetectedSlants
-from fitter.detection.person_detector import DetectedPerson
 from fitter.fits.proposal_warnings import proposal_warnings
 from fitter.request import Click
 
@@ -24,53 +22,17 @@ FRONT = {
 }  # fmt: skip
 
 
-def person(**moved: tuple[float, float]) -> DetectedBody:
-    """Somebody who stands upright before the camera in a picture of 200 x 320 pixels."""
-    mask = np.zeros((320, 200), dtype=np.float32)
-    mask[15:290, 45:155] = 1.0
-    return DetectedBody(
-        person=DetectedPerson(
-            score=0.9, middle=np.array([100.0, 150.0]), rim=np.array([100.0, 5.0])
-        ),
-        points={name: Click(x=x, y=y) for name, (x, y) in (FRONT | moved).items()},
-        visibility=dict.fromkeys(FRONT, 1.0),
-        slants=DetectedSlants(limbs={}, middle=np.array([100.0, 150.0])),
-        leaning_deg=0.0,
-        mask=mask,
-    )
+def person(**moved: tuple[float, float]) -> dict[str, Click]:
+    """Somebody who stands upright before the camera."""
+    return {name: Click(x=x, y=y) for name, (x, y) in (FRONT | moved).items()}
 
 
-def codes(*bodies: DetectedBody, chosen: int | None = 0, was_chosen: bool = False) -> list[str]:
-    return [each.code for each in proposal_warnings(bodies, chosen, was_chosen=was_chosen)]
+def codes(points: Mapping[str, Click]) -> list[str]:
+    return [each.code for each in proposal_warnings(points)]
 
 
 def test_there_is_nothing_to_say_of_somebody_upright_and_whole():
     assert codes(person()) == []
-
-
-def test_nobody_is_told():
-    assert codes(chosen=None) == ["nobody-found"]
-
-
-def test_several_people_are_told_to_whom_did_not_choose():
-    assert codes(person(), person()) == ["several-people"]
-    assert codes(person(), person(), chosen=1, was_chosen=True) == []
-
-
-def test_somebody_who_goes_on_beyond_the_picture_is_cut_off():
-    whole = person()
-    without_toe = {name: each for name, each in whole.points.items() if name != "left_toe"}
-    assert codes(replace(whole, points=without_toe)) == ["cut-off"]
-    assert codes(person(left_toe=(122, 319.5))) == ["cut-off"]
-    whole.mask[-1, 80:120] = 1.0
-    assert codes(whole) == ["cut-off"]
-
-
-@pytest.mark.parametrize(("shrink", "told"), [(0.88, ["person-too-small"]), (0.91, [])])
-def test_a_person_of_less_than_250_pixels_is_small(shrink, told):
-    """Shoulders to ankles are 210 pixels, three quarters of the stature."""
-    smaller = {name: (x, shrink * y) for name, (x, y) in FRONT.items()}
-    assert codes(person(**smaller)) == told
 
 
 def test_a_back_is_told_from_a_front_by_the_face():
@@ -78,11 +40,10 @@ def test_a_back_is_told_from_a_front_by_the_face():
     facing = person(**mirrored)
     assert "seen-from-behind" not in codes(facing)
     hidden = {
-        name: replace(facing.points[name], occluded=True)
-        for name in ("nose", "left_eye", "right_eye")
+        name: replace(facing[name], occluded=True) for name in ("nose", "left_eye", "right_eye")
     }
-    assert codes(replace(facing, points={**facing.points, **hidden})) == ["seen-from-behind"]
-    assert codes(replace(person(), points={**person().points, **hidden})) == []
+    assert codes(facing | hidden) == ["seen-from-behind"]
+    assert codes(person() | hidden) == []
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ import pytest
 from PIL import Image, ImageChops, ImageStat
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CheckRequest
 from api_schemas.fit import FitRequest
 from api_schemas.initial_poses import ImageSize, InitialPoseRequest
 from api_schemas.person import UncertainMeasurement
@@ -17,7 +16,7 @@ from api_schemas.proposals import PointsRequest
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
-from service.estimates.answers import body, check, initial_pose, jpeg, points
+from service.estimates.answers import body, initial_pose, jpeg, points
 from service.estimates.questions import BodyTask, InitialPoseTask
 from service.numerics.tasks import ProblemError
 from service.worker.pipeline_port import UnusableInputError
@@ -144,9 +143,9 @@ def test_points_of_a_heic_are_those_of_the_jpeg():
 
 
 def test_a_heic_is_checked_with_the_lens_of_its_exif_block():
-    task = CheckRequest(view=ViewKind.FRONT, height_m=1.804)
-    found = check(task, sample_of_a_phone(), max_pixels=1_000_000, detector=None)
-    assert found.distance_m == pytest.approx(
+    task = PointsRequest(view=ViewKind.FRONT, height_m=1.804)
+    found = points(task, sample_of_a_phone(), max_pixels=1_000_000, detector=None)
+    assert found.proposal.distance_m == pytest.approx(
         checked_sample(view=ViewKind.FRONT, height_m=1.804).distance_m, rel=0.03
     )
 
@@ -167,13 +166,9 @@ def test_what_cannot_be_decoded_cannot_be_written_as_a_jpeg():
 
 
 def checked_sample(*, detector: Path | None = None, **said: object):
-    request = CheckRequest.model_validate(said)
-    return check(
-        request,
-        load_sample().image,
-        max_pixels=1_000_000,
-        detector=detector,
-    )
+    request = PointsRequest.model_validate(said)
+    found = points(request, load_sample().image, max_pixels=1_000_000, detector=detector)
+    return found.proposal
 
 
 def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
@@ -182,7 +177,7 @@ def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
     assert (found.seen_from, found.assumptions) == (SeenFrom.FRONT, ())
     assert found.distance_m == pytest.approx(3.0, rel=0.05)
     assert found.lean_deg == pytest.approx(0.0, abs=2.0)
-    assert found.box == pytest.approx((163, 41, 559, 895), abs=12)
+    assert found.persons[0].box == pytest.approx((163, 41, 559, 895), abs=12)
 
 
 def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():
@@ -196,9 +191,9 @@ def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_le
 
 
 def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_path):
-    points = SAMPLE.views[0].given_points
-    found = checked_sample(detector=tmp_path, points=points, view=ViewKind.FRONT)
-    assert (found.findings, found.box, found.seen_from) == ((), None, SeenFrom.FRONT)
+    clicked = SAMPLE.views[0].given_points
+    found = checked_sample(detector=tmp_path, points=clicked, view=ViewKind.FRONT)
+    assert (found.findings, found.persons, found.seen_from) == ((), (), SeenFrom.FRONT)
     assert {each.code for each in found.not_checked} == {
         "nobody-found",
         "several-people",
@@ -213,8 +208,8 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
 
 
 def test_points_say_who_is_to_be_checked_and_must_be_somebody_s():
-    points = {"nose": Point(x=30.0, y=30.0), "left_ankle": Point(x=60.0, y=900.0)}
-    found = checked_sample(points=points)
+    elsewhere = {"nose": Point(x=30.0, y=30.0), "left_ankle": Point(x=60.0, y=900.0)}
+    found = checked_sample(points=elsewhere)
     assert [each.code for each in found.findings] == ["nobody-found"]
     with pytest.raises(UnusableInputError) as caught:
         checked_sample(person=1)

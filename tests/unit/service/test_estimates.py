@@ -5,7 +5,6 @@ import asyncio
 import pytest
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CheckRequest
 from api_schemas.problems import FieldProblem, Problem, field_problem
 from api_schemas.proposals import PointsRequest
 from fitter.vocabulary.choices import Gender
@@ -72,10 +71,7 @@ def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
 
 def test_a_detector_that_is_not_there_is_told_with_what_to_install():
     estimates = troubled(no_detector())
-    for question in (
-        estimates.points(PointsRequest(), b"a picture"),
-        estimates.check(CheckRequest(), b"a picture"),
-    ):
+    for question in (estimates.points(PointsRequest(), b"a picture"),):
         with pytest.raises(ProblemError) as caught:
             asyncio.run(question)
         told = caught.value.problem

@@ -6,14 +6,13 @@ import pytest
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.body_models import BodyModels
-from api_schemas.checks import CaptureCheck, CheckOfImage
 from api_schemas.fit import FitRequest
 from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Fit, FitPage
 from api_schemas.problems import ProblemType
 from api_schemas.products import Product, ProductRequest
-from api_schemas.proposals import PointsOfImage, PointsProposal
+from api_schemas.proposals import PointsProposal, PointsRequest
 from api_schemas.results import FitResult
 from api_schemas.service import Live, Ready
 from api_schemas.webhooks import WebhookEvent
@@ -38,7 +37,6 @@ KINDS = {
     "estimate_initial_pose": InitialPose,
     "estimate_body": BodyEstimate,
     "propose_points": PointsProposal,
-    "check_capture": CaptureCheck,
     "list_body_models": BodyModels,
     "get_liveness": Live,
     "get_readiness": Ready,
@@ -62,8 +60,7 @@ def test_examples_of_answers_are_of_their_types(operation):
         ("make_product", ProductRequest),
         ("estimate_initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
-        ("propose_points", PointsOfImage),
-        ("check_capture", CheckOfImage),
+        ("propose_points", PointsRequest),
     ],
 )
 def test_examples_of_requests_are_of_their_types(operation, kind):

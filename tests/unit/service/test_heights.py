@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import pytest
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from api_schemas import bodies, checks, fit, initial_poses, person
+from api_schemas import bodies, fit, initial_poses, person, proposals
 from api_schemas.body_models import BodyModels
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from service.api.openapi import complete_openapi
 from service.submissions.validation import field_problems
 
-MODULES = (bodies, checks, fit, initial_poses)
+MODULES = (bodies, fit, initial_poses, proposals)
 
 
 def requests_with_a_height() -> Iterator[type[BaseModel]]:
@@ -36,9 +36,9 @@ def fault_of(kind: type[BaseModel], height_m: float) -> list[tuple[str, str]]:
     return []
 
 
-def test_fits_bodies_poses_and_checks_name_heights():
+def test_fits_bodies_poses_and_points_name_heights():
     assert {kind.__name__ for kind in requests_with_a_height()} >= {
-        "BodyRequest", "CheckRequest", "FitRequest", "InitialPoseRequest",
+        "BodyRequest", "FitRequest", "InitialPoseRequest", "PointsRequest",
     }  # fmt: skip
 
 
@@ -52,7 +52,7 @@ def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
 
 def test_heights_of_children_are_refused_as_such():
     with pytest.raises(ValidationError) as caught:
-        checks.CheckRequest.model_validate({"height_m": 1.1})
+        proposals.PointsRequest.model_validate({"height_m": 1.1})
     (problem,) = field_problems(caught.value.errors())
     assert "grown-up" in problem.reason
     assert "grown-up" in problem.remedy
