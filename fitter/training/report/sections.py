@@ -9,12 +9,11 @@ from fitter.body.model import BodyModel
 from fitter.measurement.definition_file import load_definitions
 from fitter.training.report.header_figures import EARLIER_METHODS_KEY
 from fitter.training.report.survey_comparison import (
-    TooFewPeopleError,
     comparison_lines,
     drawn_measurements,
     survey_comparison,
 )
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import table_lines
 
 AGREED = 1e-3
 """Of every held-out figure: micrometres, and thousandths of a correlation. Single precision is
@@ -108,12 +107,8 @@ def header_lines(model: BodyModel) -> tuple[str, ...]:
 
 def survey_lines(model: BodyModel) -> tuple[str, ...]:
     """The model's people beside the survey's."""
-    definitions = load_definitions()
-    try:
-        found = survey_comparison(model.gender, definitions, drawn_measurements(model))
-    except TooFewPeopleError as error:
-        return note_lines(f"Measurements are not held against ANSUR II's: {error}")
-    return comparison_lines(found)
+    people = drawn_measurements(model)
+    return comparison_lines(survey_comparison(model.gender, load_definitions(), people))
 
 
 def _verdict(value: float, limit: float | None) -> tuple[str, str]:

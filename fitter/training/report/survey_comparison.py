@@ -1,7 +1,7 @@
 """Means, spreads and correlations of the model's measurements beside the survey's.
 
 People are drawn from the model's N(0, I), which is wider than the survey's soldiers on purpose. So
-each person is weighted, until the weighted people have the survey's joint distribution of stature
+each person is weighted, so that the weighted people have the survey's joint distribution of stature
 and weight; what then differs is definition, pose, age and model.
 """
 
@@ -24,15 +24,7 @@ PEOPLE = 1000
 GIVEN = ("stature", "weight")
 """What people are weighted by, as their logarithms."""
 
-MAX_STEPS = 60
-TOLERANCE = 1e-9
-"""Of the moments, in standard deviations of the given."""
-
 _SEED = 20120101
-
-
-class TooFewPeopleError(ValueError):
-    """People who cannot stand for a survey however they are weighted."""
 
 
 class Moments(NamedTuple):
@@ -147,38 +139,12 @@ def comparison_lines(found: SurveyComparison) -> tuple[str, ...]:
 def matching_weights(given: Float[np.ndarray, "s d"], target: Moments) -> Float[np.ndarray, " s"]:
     """Weights, summing to one, under which ``given`` have the target's mean and covariance.
 
-    Of all such weights those nearest to equal ones in the sense of entropy: w_i ∝ exp(λ · f(x_i)),
-    with f the coordinates and their products. Where the people are Gaussian these are the quotient
-    of the target's density and theirs. λ minimises the convex log Σ exp λ · (f(x_i) - f̄).
-
-    Raises
-    ------
-    TooFewPeopleError
-        If the people do not reach far enough to have the target's moments.
+    The quotient of two Gaussian densities, the target's and their own: exact for Gaussian people.
     """
-    root = np.linalg.cholesky(target.covariance)
-    x = np.linalg.solve(root, (given - target.mean).T).T
-    first, second = np.triu_indices(x.shape[1])
-    # In the target's own units its mean is zero and its covariance the identity.
-    features = np.concatenate([x, x[:, first] * x[:, second] - (first == second)], axis=1)
-    multipliers = np.zeros(features.shape[1])
-    value, weights = _tilted(features, multipliers)
-    for _ in range(MAX_STEPS):
-        mean = weights @ features
-        if np.abs(mean).max() < TOLERANCE:
-            return weights
-        curvature = (features * weights[:, None]).T @ features - np.outer(mean, mean)
-        step = np.linalg.lstsq(curvature, -mean, rcond=None)[0]
-        size = 1.0
-        while size > TOLERANCE:
-            trial = _tilted(features, multipliers + size * step)
-            if trial[0] <= value + 1e-4 * size * float(mean @ step):
-                break
-            size *= 0.5
-        multipliers = multipliers + size * step
-        value, weights = _tilted(features, multipliers)
-    message = f"No weights give these {len(given)} people the target's moments."
-    raise TooFewPeopleError(message)
+    own = Moments(mean=given.mean(axis=0), covariance=np.cov(given.T, bias=True))
+    exponents = 0.5 * (_squared_distances(given, own) - _squared_distances(given, target))
+    weights = np.exp(exponents - exponents.max())
+    return weights / weights.sum()
 
 
 def effective_count(weights: Float[np.ndarray, " s"]) -> float:
@@ -193,15 +159,10 @@ def weighted_moments(values: Float[np.ndarray, "s k"], weights: Float[np.ndarray
     return Moments(mean=mean, covariance=(offsets * weights[:, None]).T @ offsets)
 
 
-def _tilted(
-    features: Float[np.ndarray, "s f"], multipliers: Float[np.ndarray, " f"]
-) -> tuple[float, Float[np.ndarray, " s"]]:
-    """The convex function and its weights."""
-    exponents = features @ multipliers
-    largest = float(exponents.max())
-    weights = np.exp(exponents - largest)
-    total = float(weights.sum())
-    return largest + np.log(total), weights / total
+def _squared_distances(points: Float[np.ndarray, "s d"], of: Moments) -> Float[np.ndarray, " s"]:
+    """Mahalanobis distances, squared."""
+    offsets = points - of.mean
+    return np.einsum("si,ij,sj->s", offsets, np.linalg.inv(of.covariance), offsets)
 
 
 def _statures_and_weights(gender: str) -> Moments:
