@@ -37,7 +37,7 @@ async def check_form(request: Request) -> None:
 
 
 def _check_parameters(request: Request) -> None:
-    shared = request.app.openapi()["components"]["parameters"]
+    shared = request.app.openapi()["components"].get("parameters", {})
     declared = [
         shared[each["$ref"].rpartition("/")[2]] if "$ref" in each else each
         for each in _operation(request).get("parameters", ())

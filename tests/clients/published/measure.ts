@@ -1,32 +1,33 @@
-// What somebody writes who has the published client: a fit, a scan, their files, and a request that is refused.
+// What somebody writes who has the published client: fits, their files, a product, and a request that is refused.
 import { Maquette, MaquetteError } from "maquette-client";
 
 export async function measured(address: string, picture: Blob, other: Blob) {
   const maquette = new Maquette({ address });
   const states: string[] = [];
-  const known = { gender: "female", height_m: 1.68, points: "auto" } as const;
-  const fit = await maquette.fit(picture, known, { wait: 0 });
-  const done = await maquette.waitFor(fit, { onProgress: ({ state }) => states.push(state) });
-  const found = await maquette.result(done);
-  const glb = await maquette.artifact(done, "body_posed.glb");
-  const whole = await maquette.result(done, { stages: true });
+  const known = { gender: "female", height_m: 1.68 } as const;
+  const fit = await maquette.fit(known, [picture], { onProgress: ({ state }) => states.push(state) });
+  const found = await maquette.result(fit);
+  const glb = await maquette.file(fit, "body_canonical.glb");
+  const whole = await maquette.result(fit, { stages: true });
+  const posed = await maquette.product(fit, { kind: "pose", pose: "sitting" });
+  const reposed = await maquette.file(posed, "body_reposed.glb");
 
   const views = [{ view: "front" }, { view: "side" }] as const;
-  const scan = await maquette.waitFor(await maquette.scan([picture, other], { gender: "female", views: [...views] }));
-  const { views: seen, measurements } = await maquette.result(scan);
-  await maquette.erase(done);
-  await maquette.erase(scan);
+  const several = await maquette.fit({ gender: "female", views: [...views] }, [picture, other]);
+  const { views: seen, measurements } = await maquette.result(several);
+  await maquette.erase(fit);
+  await maquette.erase(several);
 
-  const refused = await maquette.fit(picture, { ...known, height_m: 9 }).catch((error: unknown) => error);
+  const refused = await maquette.fit({ ...known, height_m: 9 }, [picture]).catch((error: unknown) => error);
   if (!(refused instanceof MaquetteError)) throw new Error("nobody is nine metres tall");
-  const gone = await maquette.result(done).catch((error: unknown) => error instanceof MaquetteError && error.status);
+  const gone = await maquette.result(fit).catch((error: unknown) => error instanceof MaquetteError && error.status);
   return {
     states,
     waist: [found, { measurements }].map((each) => each.measurements[0]?.value),
     interval: [found.measurements[0]?.low, found.measurements[0]?.high],
     stages: [found.stages.length, whole.stages.length],
     views: seen.map(({ view }) => view),
-    glb: (await glb.text()).slice(0, 4),
+    glb: await Promise.all([glb, reposed].map(async (each) => (await each.text()).slice(0, 4))),
     refused: [refused.status, refused.problem?.errors?.[0]?.field],
     gone,
   };
@@ -35,6 +36,6 @@ export async function measured(address: string, picture: Blob, other: Blob) {
 // The types are those of the document: each of these must be an error.
 declare const maquette: Maquette;
 // @ts-expect-error a gender is needed
-export const nobody = () => maquette.fit(new Blob(), { points: "auto" });
-// @ts-expect-error a fit has no agreement
-export const alone = async () => (await maquette.result(await maquette.fit(new Blob(), { gender: "male", points: "auto" }))).agreement;
+export const nobody = () => maquette.fit({ height_m: 1.7 }, [new Blob()]);
+// @ts-expect-error there is no such product
+export const bust = async () => maquette.product(await maquette.fit({ gender: "male" }, [new Blob()]), { kind: "bust" });
