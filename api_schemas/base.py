@@ -2,9 +2,8 @@
 
 from typing import Annotated, LiteralString, cast
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 
 class WireModel(BaseModel):
@@ -22,18 +21,6 @@ class WireModel(BaseModel):
         ser_json_inf_nan="strings",
         hide_input_in_errors=True,
     )
-
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Announce no default of a field that may be left out: readers take it for always there."""
-        schema = handler(core_schema)
-        properties = handler.resolve_ref_schema(schema).get("properties", {})
-        for name, field in cls.model_fields.items():
-            if field.exclude_if is not None:
-                properties[name].pop("default", None)
-        return schema
 
 
 def refusal(

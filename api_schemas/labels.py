@@ -8,7 +8,6 @@ import re
 from typing import Annotated, Final
 
 from pydantic import AfterValidator, Field
-from pydantic_core import PydanticCustomError
 
 from api_schemas.base import refusal
 
@@ -21,9 +20,9 @@ _UNSEEN: Final = (
 )
 _SPACES: Final = r" \u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 PATTERN: Final = f"^[^{_UNSEEN}]*[^{_UNSEEN}{_SPACES}][^{_UNSEEN}]*$"
-"""The labels that the OpenAPI document tells of."""
+"""What the OpenAPI document can say of labels in few characters."""
 
-# Beyond the released pattern: soft hyphens, fillers that look like spaces, marks of annotations,
+# Beyond that pattern: soft hyphens, fillers that look like spaces, marks of annotations,
 # music and languages, and what is no character.
 _BLANK: Final = (
     r"\u00ad\u115f\u1160\u17b4\u17b5\u180e\u3164\ud800-\udfff\uffa0\ufff0-\ufffb\ufffe\uffff"
@@ -31,7 +30,6 @@ _BLANK: Final = (
 )
 # They shape or choose what stands before them (letters, emoji, flags), and alone are nothing.
 _ATTACHED: Final = r"\u034f\u180b-\u180d\u180f\u200c\u200d\u2800\ufe00-\ufe0f\U000e0020-\U000e01ef"
-_FINDABLE: Final = re.compile(PATTERN.removeprefix("^").removesuffix("$"))
 _READABLE: Final = re.compile(
     f"[^{_UNSEEN}{_BLANK}]*[^{_UNSEEN}{_BLANK}{_SPACES}{_ATTACHED}][^{_UNSEEN}{_BLANK}]*"
 )
@@ -55,18 +53,8 @@ def is_readable(text: str) -> bool:
 
 def _check_readable(text: str) -> str:
     if not is_readable(text):
-        raise _unreadable()
+        raise refusal(code="unreadable-label", reason=UNREADABLE, remedy=READABLE_REMEDY)
     return text
-
-
-def _check_findable(label: str) -> str:
-    if _FINDABLE.fullmatch(label) is None:
-        raise _unreadable()
-    return label
-
-
-def _unreadable() -> PydanticCustomError:
-    return refusal(code="unreadable-label", reason=UNREADABLE, remedy=READABLE_REMEDY)
 
 
 def _check_length(label: str) -> str:
@@ -87,11 +75,6 @@ _IN_DOCUMENT: Final = Field(
 )
 
 Label = Annotated[str, AfterValidator(_check_length), AfterValidator(_check_readable), _IN_DOCUMENT]
-
-LabelOfList = Annotated[
-    str, AfterValidator(_check_length), AfterValidator(_check_findable), _IN_DOCUMENT
-]
-"""A label that is looked for: it may be of 1.0, which knew fewer characters that are not seen."""
 
 LABEL_OF_FIT: Final = (
     "What you call the person, for instance an id of yours: lists can be filtered by it. It is "

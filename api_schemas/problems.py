@@ -17,10 +17,8 @@ class FieldProblem(WireModel):
     code: str
     reason: str
     remedy: str
-    # Absent where there is none, so that other problems stay as they were.
     largest: float | None = Field(
         default=None,
-        exclude_if=lambda value: value is None,
         description="The largest value that can be used, where a smaller one can be.",
     )
 

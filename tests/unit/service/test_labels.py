@@ -3,10 +3,9 @@
 import json
 
 import pytest
-from pydantic import TypeAdapter
 
 from api_schemas.fit import FitRequest
-from api_schemas.labels import LONGEST, LabelOfList
+from api_schemas.labels import LONGEST
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 
@@ -62,7 +61,3 @@ def test_what_cannot_be_read_is_refused_by_name(label, code):
         labelled(label)
     assert (caught.value.problem.field, caught.value.problem.code) == ("label", code)
     assert caught.value.problem.remedy
-
-
-def test_what_was_kept_under_the_rule_of_1_0_can_still_be_looked_for():
-    assert TypeAdapter(LabelOfList).validate_python("soft\u00adhyphen") == "soft\u00adhyphen"

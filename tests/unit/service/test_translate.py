@@ -203,6 +203,7 @@ def test_progress_and_complaints_keep_their_words():
         "code": "a-code",
         "reason": "Why.",
         "remedy": "What.",
+        "largest": None,
     }
 
 
