@@ -24,7 +24,7 @@ LONGEST = (
     "e2e",
     "integration/service/test_outages.py",
     "integration/service/test_failures.py",
-    "integration/service/test_derivations.py",
+    "integration/service/test_products.py",
     "integration/service/test_webhooks.py",
     "integration/service/test_refused_start.py",
     "integration/service/test_chaos.py",
@@ -39,7 +39,7 @@ LONGEST = (
     "unit/training/test_measurement_figures.py",
     "unit/training/test_knee_rings.py",
     "unit/training/test_bone_centres.py",
-    "unit/service/test_derivers.py",
+    "unit/service/products",
     "unit/optimizer/test_free_space.py",
     "unit/training/test_volume_learning.py",
 )

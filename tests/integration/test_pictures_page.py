@@ -19,7 +19,7 @@ from fitter.vocabulary.outcomes import Verdict
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()
 
-DERIVED = ("fitter/applications", "service/worker/derived")
+MAKERS = ("fitter/applications", "service/worker/products")
 """Where what is made of fits warns; several pictures warn of the same as a scan."""
 
 
@@ -40,7 +40,7 @@ CHECKS = rows("Findings")
 HARMS = rows("What harms")
 OF_FITS = rows("Warnings of a fit")
 OF_POINTS = rows("Warnings of proposed points")
-OF_DERIVATIONS = rows("Warnings of what is made of a fit")
+OF_PRODUCTS = rows("Warnings of what is made of a fit")
 REFUSALS = rows("Refusals of pictures")
 
 
@@ -159,8 +159,7 @@ def test_warnings_of_fits_are_those_of_the_code():
     made = {
         file
         for file in sources("fitter", "service")
-        if file != of_proposals
-        and not any(file.is_relative_to(ROOT / folder) for folder in DERIVED)
+        if file != of_proposals and not any(file.is_relative_to(ROOT / folder) for folder in MAKERS)
     }
     verdicts = {each.value.replace("_", "-") for each in Verdict if each is not Verdict.PLAUSIBLE}
     assert set(OF_FITS) == codes_of("FitWarning", iter(sorted(made))) | verdicts
@@ -170,8 +169,8 @@ def test_warnings_of_proposals_are_those_of_the_code():
     assert set(OF_POINTS) == proposal_codes()
 
 
-def test_warnings_of_derivations_are_those_of_the_code():
-    assert set(OF_DERIVATIONS) == codes_of("FitWarning", sources(*DERIVED)) - set(OF_FITS)
+def test_warnings_of_products_are_those_of_the_code():
+    assert set(OF_PRODUCTS) == codes_of("FitWarning", sources(*MAKERS)) - set(OF_FITS)
 
 
 def test_the_figures_of_warnings_are_those_of_the_code():

@@ -67,10 +67,8 @@ def made_product(product: ProductInput) -> Made[ProductResult]:
                 result=PoseResult(pose=(), colours=BodyColours.PLAIN),
                 files={"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"},
             )
-        case CompositionOptions(age_years=age):
-            result = CompositionResult(
-                age_years=age, bmi=22.0, bmi_standard_error=1.0, estimates=()
-            )
+        case CompositionOptions():
+            result = CompositionResult(bmi=22.0, estimates=())
             return Made(result=result, files={"composition.csv": b"name,percent\r\n"})
         case other:
             message = f"the fake makes no {other.kind}"

@@ -31,7 +31,7 @@ PLAN = Plan(
 
 
 # So long that some of the kills hit a job.
-SCRIPT = {"seconds": 0.8, "product": {"seconds": 0.8}}
+SCRIPT = {"seconds": 0.8, "product": {"seconds": 0.1}}
 FITS = tuple(
     Submission(image=scripted_image(SCRIPT | {"number": number}), request=json.dumps(REQUEST))
     for number in range(PICTURES)
