@@ -27,6 +27,13 @@ export const FOUND: PointsProposal = {
   } as Proposed,
   doubtful: ["left_ankle", "right_wrist"],
   mask: null,
+  usable: true,
+  findings: [],
+  not_checked: [],
+  seen_from: null,
+  lean_deg: null,
+  distance_m: null,
+  assumptions: [],
   warnings: [],
 };
 
@@ -36,7 +43,6 @@ export const NOBODY_FOUND: PointsProposal = {
   person: null,
   points: {} as Proposed,
   doubtful: [],
-  warnings: [{ code: "nobody-found", message: "No person was found in the picture: click the points." }],
 };
 
 /** The same points, of one among several. */

@@ -50,14 +50,8 @@ def test_codes_are_written_somewhere_in_the_service(name: str, code_written: str
         assert f'"{code}"' in code_written, code
 
 
-def test_what_a_motion_comes_from_is_told_as_the_page_expects(code_written: str):
-    page = MESSAGES.parent / "derived" / "kinds" / "animation.tsx"
-    (source,) = re.findall(r'^const NAMED_JOINTS = "(.+)";', page.read_text("utf-8"), re.MULTILINE)
-    assert f'source=f"{source}' in code_written
-
-
 def test_the_page_offers_every_named_motion():
-    page = MESSAGES.parent / "derived" / "kinds" / "animation.tsx"
+    page = MESSAGES.parent / "products" / "kinds" / "animation.tsx"
     (listed,) = re.findall(r"^const MOTIONS.* = \[(.*)\];", page.read_text("utf-8"), re.MULTILINE)
     assert re.findall(r'"([a-z_]+)"', listed) == [each.value for each in NamedMotion]
 

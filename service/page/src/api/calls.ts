@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { Fit, FitRequest, FitResult, InitialPose, InitialPoseRequest, PointsOfImage, PointsProposal, Product, ProductRequest, UploadedImage } from "./types";
+import type { Fit, FitRequest, FitResult, InitialPose, InitialPoseRequest, PointsProposal, PointsRequest, Product, ProductRequest, UploadedImage } from "./types";
 
 /** What the root of the service answers to programs (api_schemas/service.py); the API document describes `/v1` alone. */
 interface ServiceIndex {
@@ -21,7 +21,7 @@ export function initialPose(asked: InitialPoseRequest, signal: AbortSignal): Pro
   return requestJson("/v1/initial-poses", { ...jsonBody(asked), signal });
 }
 
-export function proposePoints(asked: PointsOfImage, signal: AbortSignal): Promise<PointsProposal> {
+export function proposePoints(asked: PointsRequest, signal: AbortSignal): Promise<PointsProposal> {
   return requestJson("/v1/points", { ...jsonBody(asked), signal });
 }
 

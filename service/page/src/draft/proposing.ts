@@ -113,7 +113,7 @@ function isPassing({ code, status }: Problem): boolean {
 async function ask(view: DraftView, imageId: string, wanted: Wish, asking: AbortSignal): Promise<void> {
   for (;;) {
     try {
-      const found = await proposePoints({ image_id: imageId, person: wanted.person, mask: true }, asking);
+      const found = await proposePoints({ image_id: imageId, person: wanted.person, mask: true, ...(views.peek().length > 1 ? { view: view.view.peek() } : {}) }, asking);
       // Nobody sees that the wish is gone before its answer is there.
       return batch(() => {
         view.wish.value = null;

@@ -55,23 +55,18 @@ export const answers = {
   warnings: {
     "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
     "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
-    "chart-gap": "Between some sizes of the chart there is a gap. A body in it gets the nearer size, where too small counts twice.",
-    "chart-overlap": "Some sizes of the chart overlap. A body in both gets the size whose middle is nearer.",
     "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
     "clothes-not-loose":
       "This looks like underwear or swimwear. If nothing loose covers the body, say that the clothes are close-fitting: girths may be several centimetres too small otherwise.",
     "cut-off": "The person reaches the border of the picture. Points outside it are missing.",
     "different-people": "The pictures seem to show different people. Check the pictures and their points, or leave one out.",
     "given-contradicted": "One value that you gave contradicts the pictures and the height. Check it, and its unit.",
-    "heights-differ":
-      "These fits have different heights, and all other measurements follow the height. Give the same height in both.",
     implausible: "You asked for measurements all the same. They may be nobody’s: the picture contradicts the body.",
     "left-and-right-may-be-swapped":
       "Left and right may be swapped: both eyes are seen, but the points lie as if from behind. Left is the person’s own left.",
     "limbs-crossed": "Arms or legs cross in the picture. Check that left and right are right.",
     "low-silhouette-overlap":
       "The body covers little of the person. Check the points, check left and right, or correct the mask.",
-    "no-person": "You asked for measurements all the same. They may be nobody’s: no person is seen where the points are.",
     "other-view":
       "In one of the pictures the person is turned otherwise than you said. Check which view it is, and whether it is mirrored.",
     "person-too-small": "The person is small in this picture, and measurements suffer. Crop it to them, or use a larger one.",
@@ -82,8 +77,6 @@ export const answers = {
     "shading-not-used": "Too little bare, well-lit skin is seen to use shading. The result is by outline alone.",
     "shoulders-and-hips-disagree":
       "The shoulders say one side and the hips the other: a pair may be swapped. Left is the person’s own left.",
-    "surroundings-not-found":
-      "Too little bare surface is visible to tell the light from all round from the lamp: the light is a lamp, and the same faint light from everywhere.",
     "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
     "unusual-height":
       "Few people are this tall or this small, so ranges are wider. Check the height and the body that you chose.",

@@ -7,9 +7,6 @@ import { hasProposed, isAllProposed } from "../points/proposed";
 import { ProblemNote } from "../ui/ProblemNote";
 import { answered } from "../ui/answered";
 
-/** These are told in another way: by the note itself, by boxes, by a question. */
-const TOLD_OTHERWISE: readonly string[] = ["nobody-found", "several-people"];
-
 export function ProposalNote() {
   if (!canPropose.value) return null;
   const found = proposal.value;
@@ -28,12 +25,10 @@ export function ProposalNote() {
 /** What should be known of proposed points. */
 export function ProposalWarnings() {
   const found = proposal.value;
-  if (!found || !hasProposed(points.value)) return null;
-  const warnings = found.warnings.filter(({ code }) => !TOLD_OTHERWISE.includes(code));
-  if (warnings.length === 0) return null;
+  if (!found || found.warnings.length === 0 || !hasProposed(points.value)) return null;
   return (
     <div class="note">
-      {warnings.map((warning) => (
+      {found.warnings.map((warning) => (
         <p key={warning.code}>{answered("warnings", warning.code) ?? warning.message}</p>
       ))}
     </div>

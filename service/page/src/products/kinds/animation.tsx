@@ -21,6 +21,7 @@ export const animation: Kind<AnimationWishes> = {
   part: ({ motion }) => motion && { name: "bvh", file: motion },
   Options: MotionOptions,
   picture: "animation.webp",
+  still: "animation.png",
   body: { file: "body_animated.glb", label: words.turned },
 };
 
