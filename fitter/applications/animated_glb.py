@@ -13,8 +13,7 @@ from fitter.applications.principal_frames import PrincipalFrames, with_rest
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.export.body_texture import BodyTexture
-from fitter.export.glb import BinaryChunk, Target, pack_glb
-from fitter.export.gltf_document import Frame, Node, gltf_document
+from fitter.export.glb import BinaryChunk, Frame, Node, Target, gltf_document, pack_glb
 from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, unit_normals
 from fitter.parameters import Reflectance
 

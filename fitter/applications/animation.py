@@ -7,17 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
-from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.filmstrip import film, strip
 from fitter.applications.gltf_skin import skin_of
-from fitter.applications.grounding import grounded, sliding_m
-from fitter.applications.motion import Motion, moving_body
+from fitter.applications.motion import Motion, grounded, motion_of_cycle, moving_body, sliding_m
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.named_motions import NAMED_MOTIONS
 from fitter.applications.principal_frames import principal_frames
-from fitter.applications.retarget import retarget
+from fitter.applications.retarget import Axis, retarget
 from fitter.applications.rig import Rig
-from fitter.applications.up_axis import Axis
 from fitter.body.scape import ScapeEvaluator
 from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
@@ -113,7 +110,7 @@ def motion_of_clip(
         warnings=(
             *clip.warnings,
             *retargeted.up.warnings,
-            *_told_if_cut(frames * step, wanted, clip.frame_time_s),
+            *_cut_warnings(frames * step, wanted, clip.frame_time_s),
         ),
     )
 
@@ -143,11 +140,11 @@ def motion_of_name(
         motion=motion_of_cycle(cycle, rig, first=first, frames=frames),
         source=f"the {name.replace('_', ' ')} that ships with the package",
         up=None,
-        warnings=_told_if_cut(frames, wanted, cycle.frame_time_s),
+        warnings=_cut_warnings(frames, wanted, cycle.frame_time_s),
     )
 
 
-def _told_if_cut(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarning, ...]:
+def _cut_warnings(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarning, ...]:
     if shown >= wanted:
         return ()
     message = (

@@ -5,7 +5,7 @@ that ring. The colours seen of each region of the body are therefore read as a p
 trunk and legs from the crown down, the arms from the shoulder out, and cut into bands of plain
 colour. That is what hidden points show, so that a hem or a belt runs on behind, and a check, a
 fold or a print does not. Where hidden meets seen its light follows what is seen
-(:func:`fitter.applications.both_sides.extend_light`). Regions blend where they meet.
+(:func:`fitter.applications.surface_field.extend_light`). Regions blend where they meet.
 
 The head is no ring: its back is hair. The scalp has one colour of its own, wherever any of it is
 seen.
@@ -18,8 +18,8 @@ import cv2
 import numpy as np
 from jaxtyping import Float, Integer
 
+from fitter.applications.picture_surface import Colours, SurfacePoints, smooth_step
 from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.seen_surface import Colours, SurfacePoints, smooth_step
 from fitter.observation.colour import display_from_linear
 
 BIN_M = 0.006

@@ -1,13 +1,24 @@
-"""A person in motion: poses frame by frame, and the exact bodies they give."""
+"""A person in motion: poses frame by frame, and the exact bodies they give.
 
-from dataclasses import dataclass
+Another skeleton's root is right only about: proportions differ, and scaling by leg length leaves
+centimetres. Two rules mend it. *Height*: the lowest vertex of every frame is at y = 0, or at the
+lift of the source where that has left the ground. *Place*: between two frames the root moves so
+that what touches the ground of the soles stands still, as in rolling without slip; only where
+nothing touches it, it moves as the source's.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float, Float32
+from jaxtyping import Float, Float32, Integer
 
-from fitter.arrays import Pose, Shape
+from fitter.applications.poses import Angles, angled_pose
+from fitter.applications.rig import Rig
+from fitter.arrays import Pose, Shape, Vector3
+from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
-from fitter.numerics.rotations import rotation_matrices
+from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.parameters import BodyParameters
 
 
@@ -80,3 +91,137 @@ def moving_body(evaluator: ScapeEvaluator, shape: Shape, motion: Motion) -> Movi
         rotations=rotation_matrices(motion.poses[:, 0]),
         roots=motion.roots,
     )
+
+
+FRAMES_PER_SECOND = 30.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """How a person is held at a moment.
+
+    Attributes
+    ----------
+    angles
+        By part; parts that are not named are held as at rest.
+    turn, lean
+        Of the pelvis, degrees: about the vertical to the person's left, then forward.
+    lift_m
+        How far the lowest point of the body is above the ground.
+    """
+
+    angles: Mapping[str, Angles]
+    turn: float = 0.0
+    lean: float = 0.0
+    lift_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cycle:
+    """A motion that repeats itself.
+
+    Attributes
+    ----------
+    duration_s
+        Until it begins anew.
+    times
+        How often it is shown where nothing else is asked for.
+    moment
+        By phase, which is 0 where it begins and 1 where it begins anew.
+    """
+
+    duration_s: float
+    times: int
+    moment: Callable[[float], Moment]
+
+    @property
+    def frames(self) -> int:
+        """In how many it is shown, at about 30 a second."""
+        return max(2, round(self.duration_s * FRAMES_PER_SECOND))
+
+    @property
+    def frame_time_s(self) -> float:
+        """Seconds from frame to frame."""
+        return self.duration_s / self.frames
+
+
+def motion_of_cycle(cycle: Cycle, rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
+    """Frames of a motion without end, from the ``first`` on, on one spot.
+
+    Without a number, as often as is usual: the last frame is one before the first, so that they
+    can be played in a loop.
+    """
+    count = cycle.times * cycle.frames if frames is None else frames
+    numbers = np.arange(first, first + count) % cycle.frames
+    moments = [cycle.moment(float(number) / cycle.frames) for number in numbers]
+    poses = np.stack([angled_pose(rig, each.angles) for each in moments])
+    poses[:, 0] = [_pelvis(each) for each in moments]
+    return Motion(
+        frame_time_s=cycle.frame_time_s,
+        poses=poses,
+        roots=np.zeros((len(poses), 3)),
+        lifts_m=np.array([each.lift_m for each in moments]),
+    )
+
+
+def _pelvis(moment: Moment) -> Vector3:
+    """The rotation vector of the pelvis: it leans first, and is turned then."""
+    turn, lean = np.radians([moment.turn, moment.lean])
+    about, forward = rotation_matrices(np.array([[0.0, turn, 0.0], [lean, 0.0, 0.0]]))
+    return rotation_vectors((about @ forward)[None])[0]
+
+
+CONTACT_HEIGHT_M = 0.004
+"""Height above the ground at which a vertex of the sole counts 1/e of one that touches it: the
+flesh that a foot presses flat, which the rigid sole of the model does not have."""
+
+SOLE_HEIGHT_M = 0.03
+"""Vertices of the feet this near to the lowest at rest are the soles."""
+
+SOURCE_WEIGHT = 0.02
+"""Of the source's own motion, beside vertices of weight up to one each."""
+
+
+def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
+    """The same bodies with their roots moved."""
+    lowest = [
+        (shape @ turn[1]).min() for shape, turn in zip(body.shapes, body.rotations, strict=True)
+    ]
+    roots = body.roots.copy()
+    roots[:, 1] = body.motion.lifts_m - lowest
+    soles = _soles(body, model)
+    weights = _touching(soles[:, :, 1] + roots[:, None, 1])
+    back = -np.diff(soles[:, :, [0, 2]], axis=0)
+    steps = np.einsum("tc,tci->ti", weights, back)
+    steps += SOURCE_WEIGHT * np.diff(roots[:, [0, 2]], axis=0)
+    steps /= (weights.sum(axis=1) + SOURCE_WEIGHT)[:, None]
+    roots[1:, [0, 2]] = roots[0, [0, 2]] + np.cumsum(steps, axis=0)
+    return replace(body, roots=roots)
+
+
+def sliding_m(body: MovingBody, model: BodyModel) -> float:
+    """How far what touches the ground of the soles slides from frame to frame, mean, metres."""
+    soles = _soles(body, model) + body.roots[:, None]
+    weights = _touching(soles[:, :, 1])
+    moved = np.linalg.norm(np.diff(soles[:, :, [0, 2]], axis=0), axis=2)
+    return float((weights * moved).sum() / max(weights.sum(), 1e-12))
+
+
+def _soles(body: MovingBody, model: BodyModel) -> Float[np.ndarray, "t c 3"]:
+    """Vertices of the soles with the root at the origin, body frame's axes."""
+    shapes = body.shapes[:, sole_vertices(model)].astype(np.float64)
+    return np.einsum("tij,tcj->tci", body.rotations, shapes)
+
+
+def sole_vertices(model: BodyModel) -> Integer[np.ndarray, " c"]:
+    """The lowest vertices of both feet at rest."""
+    feet = [model.part_names.index(f"{side}_foot") for side in ("left", "right")]
+    vertices = np.unique(model.triangles[np.isin(model.part_of_triangle, feet)])
+    heights = model.mean_vertices[vertices, 1]
+    return vertices[heights < heights.min() + SOLE_HEIGHT_M]
+
+
+def _touching(heights: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t1 c"]:
+    """How much each vertex touches the ground from a frame to the next, in [0, 1]."""
+    weights = np.exp(-np.maximum(heights, 0.0) / CONTACT_HEIGHT_M)
+    return np.minimum(weights[1:], weights[:-1])

@@ -5,17 +5,139 @@ A part turns as the source's joint does: R_target = R_source A, with A from
 """
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.applications.alignment import Samples, alignments
-from fitter.applications.clip import Stretch, stretch_of
+from fitter.applications.bvh import BvhFile
 from fitter.applications.motion import Motion
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.rig import Rig
-from fitter.applications.up_axis import Axis, UpAxis, found_up_axis, told_up_axis
-from fitter.numerics.rotations import rotation_matrices, rotation_vectors
+from fitter.arrays import Vector3
+from fitter.numerics.rotations import rotation_matrices, rotation_vectors, unit_vectors
+from fitter.remarks import FitWarning
+
+_AXES = {"X": 0, "Y": 1, "Z": 2}
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Stretch:
+    """Some frames of a file, in its axes and unit.
+
+    Attributes
+    ----------
+    rotations
+        (t, j, 3, 3) of the joints in the world, from the pose that the file calls rest.
+    positions
+        (t, j, 3) of the joints.
+    ends
+        (t, e, 3) of the chains' ends.
+    """
+
+    rotations: Float[np.ndarray, "t j 3 3"]
+    positions: Float[np.ndarray, "t j 3"]
+    ends: Float[np.ndarray, "t e 3"]
+
+
+def stretch_of(file: BvhFile, frames: Integer[np.ndarray, " t"]) -> Stretch:
+    """The joints in some frames.
+
+    Three rotation channels are Euler angles in degrees, intrinsic in the order listed: ``Zrotation
+    Xrotation Yrotation`` is R = Rz Rx Ry. A position channel stands in place of the offset, as the
+    programs that write such files mean it.
+    """
+    numbers = np.frombuffer(file.numbers, dtype=np.float64).reshape(file.frames, -1)[frames]
+    rotations = np.empty((len(numbers), len(file.names), 3, 3))
+    positions = np.empty((len(numbers), len(file.names), 3))
+    column = 0
+    for joint, (parent, channels) in enumerate(zip(file.parents, file.channels, strict=True)):
+        turn = np.broadcast_to(np.eye(3), (len(numbers), 3, 3))
+        place = np.tile(np.array(file.offsets[joint]), (len(numbers), 1))
+        for channel in channels:
+            values = numbers[:, column]
+            axis = _AXES[channel[0]]
+            column += 1
+            if channel.endswith("position"):
+                place[:, axis] = values
+            else:
+                turns = np.zeros((len(values), 3))
+                turns[:, axis] = np.radians(values)
+                turn = turn @ rotation_matrices(turns)
+        if parent < 0:
+            rotations[:, joint], positions[:, joint] = turn, place
+        else:
+            rotations[:, joint] = rotations[:, parent] @ turn
+            positions[:, joint] = positions[:, parent] + np.einsum(
+                "tij,tj->ti", rotations[:, parent], place
+            )
+    ends = np.array(file.ends, dtype=np.float64).reshape(-1, 3)
+    parents = np.array(file.end_parents, dtype=np.int64)
+    return Stretch(
+        rotations=rotations,
+        positions=positions,
+        ends=positions[:, parents] + np.einsum("teij,ej->tei", rotations[:, parents], ends),
+    )
+
+
+Axis = Literal["y", "-y", "z", "-z", "x", "-x"]
+AXES: tuple[Axis, ...] = get_args(Axis)
+"""In the order in which they are preferred: most files' up is y."""
+
+_UPRIGHT_COSINE = np.cos(np.radians(45.0))
+
+_MOST = 0.75
+"""Of the frames: where fewer are upright along any axis, up is in doubt."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class UpAxis:
+    """The axis, its rotation to a world whose y is up, and a warning where it is in doubt."""
+
+    axis: Axis
+    to_world: Float[np.ndarray, "3 3"]
+    warnings: tuple[FitWarning, ...]
+
+
+def given_up_axis(axis: Axis) -> UpAxis:
+    """The axis that the caller says is up."""
+    return UpAxis(axis=axis, to_world=_to_world(axis), warnings=())
+
+
+def found_up_axis(feet_to_head: Float[np.ndarray, "t 3"]) -> UpAxis:
+    """The axis along which the head is above the feet in most of the frames.
+
+    Parameters
+    ----------
+    feet_to_head
+        From the middle of the feet to the head, in the file's axes.
+    """
+    towards = unit_vectors(feet_to_head)
+    heights = np.stack([towards @ _direction(axis) for axis in AXES])
+    shares = (heights > _UPRIGHT_COSINE).mean(axis=1)
+    # Where no axis has upright frames, the one that is nearest on the whole.
+    best = int(np.lexsort((-np.arange(len(AXES)), heights.mean(axis=1), shares))[-1])
+    axis, share = AXES[best], float(shares[best])
+    warnings: tuple[FitWarning, ...] = ()
+    if axis != AXES[0] or share < _MOST:
+        message = (
+            f"Up was taken to be the file's {axis}: along it the head is above the feet in "
+            f"{share:.0%} of the frames. If that is wrong, as for a person who lies, send `up`."
+        )
+        warnings = (FitWarning(code="up-uncertain", message=message),)
+    return UpAxis(axis=axis, to_world=_to_world(axis), warnings=warnings)
+
+
+def _direction(axis: str) -> Vector3:
+    return np.eye(3)["xyz".index(axis[-1])] * (-1.0 if axis.startswith("-") else 1.0)
+
+
+def _to_world(axis: str) -> Float[np.ndarray, "3 3"]:
+    up = _direction(axis)
+    first = np.roll(np.abs(up), -1)
+    return np.stack([first, up, np.cross(first, up)])
+
 
 LIFT_DEAD_ZONE_M = 0.05
 """The source's lowest joint rises and falls by so much in walking, as heel and toe take turns: only
@@ -101,7 +223,7 @@ def _world_and_samples(source: MotionFile, up: Axis | None) -> tuple[UpAxis, Sam
     at, before, after = (stretch_of(clip, frames) for frames in (chosen, earlier, later))
     head = next(part for part in ("head", "neck", "left_upper_arm") if part in joints)
     feet = 0.5 * (at.positions[:, joints["left_foot"]] + at.positions[:, joints["right_foot"]])
-    axis = found_up_axis(at.positions[:, joints[head]] - feet) if up is None else told_up_axis(up)
+    axis = found_up_axis(at.positions[:, joints[head]] - feet) if up is None else given_up_axis(up)
     toes: dict[str, Float[np.ndarray, "t 3"]] = {}
     speed: dict[str, Float[np.ndarray, " t"]] = {}
     for side in ("left", "right"):

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.applications.seen_surface import SurfacePoints
+from fitter.applications.picture_surface import SurfacePoints
 from fitter.applications.surface_field import smooth_values
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel, regress

@@ -13,12 +13,8 @@ import numpy as np
 from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.both_sides import BothSides, extend_light
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
-from fitter.applications.lit_surface import LitSurface
-from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.seen_surface import Beliefs, Colours, SeenSurface, SurfacePoints
-from fitter.applications.trusted_look import (
+from fitter.applications.look_confidence import (
     BELIEVED,
     Look,
     at_vertices,
@@ -26,13 +22,26 @@ from fitter.applications.trusted_look import (
     face_to_leave_out,
     limit_to_shown,
 )
+from fitter.applications.picture_surface import (
+    Beliefs,
+    Colours,
+    PictureSurface,
+    SurfacePoints,
+    smooth_step,
+)
+from fitter.applications.rings import Region, RingCoordinates
+from fitter.applications.surface_field import BothSides, extend_light
 from fitter.arrays import Image, Mask
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
 from fitter.export.gltf_mesh import LIGHTEST
-from fitter.observation.colour import display_from_linear
+from fitter.numerics.rotations import unit_vectors
+from fitter.observation.colour import display_from_linear, luminance_of
 from fitter.observation.resampling import linear_working_picture, working_size
+from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson, require_model
+from fitter.render.reflectance import shading_terms
+from fitter.render.shadow import cast_shadow
 
 SIZES = (512, 1024, 2048)
 """Sides an atlas may have, texels."""
@@ -163,13 +172,13 @@ def albedo_texture(
 
 def _surface(
     person: FittedPerson, evaluator: ScapeEvaluator, linear_rgb: Image, mask: Mask | None
-) -> SeenSurface:
+) -> PictureSurface:
     require_model(person, evaluator.model)
     height, width = linear_rgb.shape[:2]
     camera = person.camera.scaled(width / person.camera.width, width=width, height=height)
     vertices = evaluator.vertices(person.body)
     region = RingCoordinates.of(evaluator.model).region
-    return SeenSurface.of(
+    return PictureSurface.of(
         vertices,
         evaluator.model.triangles,
         camera,
@@ -181,7 +190,7 @@ def _surface(
 
 
 def _texture(
-    surface: SeenSurface, look: Look, evaluator: ScapeEvaluator, size: int, *, lightest: float
+    surface: PictureSurface, look: Look, evaluator: ScapeEvaluator, size: int, *, lightest: float
 ) -> Texture:
     if size not in SIZES:
         raise InvalidInputError(
@@ -269,3 +278,66 @@ def _picture_of(atlas: Atlas, values: UInt8[np.ndarray, " t"]) -> UInt8[np.ndarr
     picture = np.zeros((atlas.size, atlas.size), dtype=np.uint8)
     picture[atlas.inside] = values
     return picture
+
+
+DIM, LIT = 0.1, 0.35
+"""Shares of the lamp's light: below the first an albedo is noise divided by little, and the rest of
+the light is only roughly known; from the second on it is believed wholly."""
+
+_LEAST_LUMINANCE = 1e-3
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LitSurface:
+    """Eq. 1 over the surface of a person in their light."""
+
+    surface: PictureSurface
+    light: Light
+    reflectance: Reflectance
+    body_centre: Float[np.ndarray, "3"]
+    lit: Float[np.ndarray, " m"]
+    typical: float
+
+    @classmethod
+    def of(
+        cls,
+        surface: PictureSurface,
+        person: FittedPerson,
+        light: Light,
+        reflectance: Reflectance,
+    ) -> "LitSurface":
+        """Of a surface before its picture, in the light that the fit found."""
+        rendering, centre = surface.rendering, person.body.translation
+        shadowed = cast_shadow(
+            rendering.vertices, rendering.triangles, light=light, body_centre=centre
+        )
+        typical = float(np.median(reflectance.albedo[rendering.vertex_visible]))
+        return cls(
+            surface=surface,
+            light=light,
+            reflectance=reflectance,
+            body_centre=centre,
+            lit=1.0 - shadowed,
+            typical=max(typical, _LEAST_LUMINANCE),
+        )
+
+    def albedo(
+        self, points: SurfacePoints, colours: Colours, belief: Beliefs
+    ) -> tuple[Colours, Beliefs]:
+        """Albedo of points whose linear colours are seen, and how far it is believed."""
+        rendering, lit = self.surface.rendering, points.of(self.lit)
+        normals = unit_vectors(points.of(rendering.vertex_normals))
+        terms = shading_terms(
+            points.of(rendering.vertices),
+            normals,
+            light=self.light,
+            body_centre=self.body_centre,
+            specular_exponent=self.reflectance.specular_exponent,
+        )
+        luminance = np.maximum(luminance_of(colours[None])[0], _LEAST_LUMINANCE)
+        highlight = points.of(self.reflectance.specularity) * terms.specular * lit
+        direct = terms.diffuse * lit
+        without = np.maximum(1.0 - highlight / luminance, 0.0)
+        around = self.reflectance.ambient / self.typical
+        share = without / np.maximum(direct + around, DIM)
+        return colours * share[:, None], belief * smooth_step(direct, DIM, LIT)

@@ -14,7 +14,7 @@ from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
-from fitter.observation.worn import WornRegion
+from fitter.observation.covering import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges

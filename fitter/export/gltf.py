@@ -17,8 +17,7 @@ from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.body_texture import BodyTexture
-from fitter.export.glb import BinaryChunk, pack_glb
-from fitter.export.gltf_document import Frame, gltf_document
+from fitter.export.glb import BinaryChunk, Frame, gltf_document, pack_glb
 from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, colour_scale_of
 from fitter.export.gltf_scene import pictured_document
 from fitter.parameters import Reflectance

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from fitter.arrays import Vector3, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
-from fitter.export.gltf_document import Frame, Node, gltf_document
+from fitter.export.glb import Frame, Node, gltf_document
 from fitter.export.gltf_mesh import BODY_NODE
 from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson

@@ -11,9 +11,10 @@ from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.energies.objective import Candidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
-from fitter.fits.outlined import Outlined
+from fitter.fits.outline_search import PictureSearch
 from fitter.observation.clicks import check_places, scaled_clicks
 from fitter.observation.colour import bytes_of_display
+from fitter.observation.covering import WornRegion
 from fitter.observation.decoding import DecodedPicture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import (
@@ -22,7 +23,6 @@ from fitter.observation.resampling import (
     working_size,
 )
 from fitter.observation.subject import MEAN_HEIGHT_M
-from fitter.observation.worn import WornRegion
 from fitter.remarks import Assumption
 from fitter.request import Click
 from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
@@ -96,7 +96,7 @@ def capture_of(
 
 
 def capture_of_fit(
-    picture: Outlined,
+    picture: PictureSearch,
     height_m: float,
     body: Candidate,
     clothing: tuple[WornRegion, ...] | None,

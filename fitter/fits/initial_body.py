@@ -17,8 +17,8 @@ from fitter.observation.resampling import working_size
 from fitter.observation.subject import check_person
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import known_person
+from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
-from fitter.pose_init.points import clicked_points
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.render.contours import outline_loops

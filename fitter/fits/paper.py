@@ -32,12 +32,11 @@ from fitter.energies.scales import FAR_BOUNDARY_ETA_M
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.equipment import Equipment
-from fitter.fits.outlined import Outlined, Subject
+from fitter.fits.outline_search import PictureSearch, Subject
 from fitter.fits.picture_objective import of_person, silhouette_and_edges
 from fitter.fits.prepared_model import PreparedModel
-from fitter.fits.progress import Stage
+from fitter.fits.progress import Stage, StageClock, ViewClock
 from fitter.fits.search import Found, LitView
-from fitter.fits.stage_clock import StageClock, ViewClock
 from fitter.observation.observation import Observation, observe
 from fitter.optimizer.alternation import (
     SMOOTHNESS_SCHEDULE,
@@ -50,8 +49,8 @@ from fitter.optimizer.gauss_newton import FIRMLY_SETTLED_NATS
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.search import BodySearch, body_search
 from fitter.parameters import BodyParameters
+from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose
-from fitter.pose_init.points import clicked_points
 from fitter.render.rasterizer import render
 from fitter.request import Choices, Paper, View
 from fitter.result import LimbFacing, PictureFit
@@ -115,7 +114,7 @@ def differences(choices: Choices) -> tuple[str, ...]:
 
 def paper_picture(
     view: View, subject: Subject, choices: Choices, equipment: Equipment, clock: StageClock
-) -> Outlined:
+) -> PictureSearch:
     """Sections 3.1 to 3.3: the first body, the person cut out around it, and the picture's terms.
 
     Raises
@@ -145,7 +144,7 @@ def paper_picture(
     with of_view.stage(Stage.SEGMENTATION):
         labels, segmentation = _segmented(observation, prepared, initial.parameters)
         objective = _terms(observation, prepared, initial.parameters, segmentation)
-    return Outlined(
+    return PictureSearch(
         view=view,
         observation=observation,
         trimap=labels,
@@ -160,7 +159,11 @@ def paper_picture(
 
 
 def paper_search(
-    picture: Outlined, subject: Subject, paper: Paper, optimizer: OptimizerKind, clock: StageClock
+    picture: PictureSearch,
+    subject: Subject,
+    paper: Paper,
+    optimizer: OptimizerKind,
+    clock: StageClock,
 ) -> Found:
     """The minimum of E1, and that of E2 where shading counts, each from the first body."""
     counted = {each.value for each in paper.energies} - {PaperEnergy.SHADING.value}
@@ -192,7 +195,7 @@ def paper_search(
 
 def _with_shading(
     found: Found,
-    picture: Outlined,
+    picture: PictureSearch,
     objective: JointObjective,
     intensity: IntensityMap,
     search: BodySearch,
@@ -229,7 +232,7 @@ def _with_shading(
     )
 
 
-def as_judged(subject: Subject, found: Found) -> Found:
+def with_all_terms(subject: Subject, found: Found) -> Found:
     """The same bodies under all terms of an ordinary fit that the picture has evidence for."""
     everything = of_person(
         subject.known, [replace(view, counted=None) for view in found.objective.views]
@@ -296,7 +299,7 @@ def _terms(
 
 
 def _energy(
-    picture: Outlined, subject: Subject, paper: Paper, counted: frozenset[str]
+    picture: PictureSearch, subject: Subject, paper: Paper, counted: frozenset[str]
 ) -> JointObjective:
     """The sum of these terms, over bodies that have what is held."""
     held = replace(subject.known.attributes.held, with_height=not paper.free_height)

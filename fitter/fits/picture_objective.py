@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitter.arrays import GreyImage
+from fitter.arrays import GreyImage, Shape
 from fitter.body.model import regress
 from fitter.energies.clicks import click_evidence
 from fitter.energies.joint_objective import JointObjective
+from fitter.energies.limb_slants import SlantEvidence
 from fitter.energies.objective import Objective
 from fitter.energies.picture import PictureEvidence
 from fitter.energies.priors import population_prior
@@ -18,11 +19,12 @@ from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.clothing import dressed
 from fitter.fits.prepared_model import PreparedModel
-from fitter.fits.slant_evidence import limb_slants
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import counted_as
 from fitter.population.known_person import KnownPerson
+from fitter.pose_init.landmark_rig import landmark_rig
+from fitter.pose_init.limbs import limb_reaches
 from fitter.render.rasterizer import render
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, preference, segment
@@ -173,4 +175,28 @@ def _outline_confidence(
         observation.camera.width,
         [projected[np.unique(triangles)] for triangles in corners],
         margin_px=_DOUBTFUL_MARGIN_M * pixels_per_metre,
+    )
+
+
+def limb_slants(
+    observation: Observation, prepared: PreparedModel, shape: Shape
+) -> SlantEvidence | None:
+    """Slants of the limbs whose two ends are among the clicks; None if there are none.
+
+    ``shape`` (n,) gives the limbs' lengths.
+    """
+    if observation.slants is None:
+        return None
+    names = list(observation.clicks)
+    rig = landmark_rig(prepared.searched.model, shape)
+    reaches = limb_reaches(observation.slants, rig, observation.camera, points=names)
+    if not reaches.limbs:
+        return None
+    return SlantEvidence(
+        ends=np.array(
+            [[names.index(limb.proximal), names.index(limb.distal)] for limb in reaches.limbs]
+        ),
+        toward=reaches.toward,
+        reach_m=reaches.reach_m,
+        sigma_m=reaches.sigma_m,
     )

@@ -8,30 +8,29 @@ from fitter.arrays import Shape
 from fitter.capture.finding import Code
 from fitter.energies.joint_objective import JointCandidate
 from fitter.errors import InvalidInputError
+from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
 from fitter.fits.equipment import Equipment
-from fitter.fits.foretold import foretold
-from fitter.fits.harm import widened_covariance
-from fitter.fits.outlined import Outlined, Subject, outlined
+from fitter.fits.error_widening import widened_covariance
+from fitter.fits.outline_search import PictureSearch, Subject, search_outline
 from fitter.fits.paper import (
-    as_judged,
     differences,
     paper_picture,
     paper_search,
+    with_all_terms,
     with_height_found,
     without_standard_errors,
 )
 from fitter.fits.picture_objective import of_person
-from fitter.fits.progress import Observer, Stage, ignore_progress
+from fitter.fits.progress import Observer, Stage, StageClock, ViewClock, ignore_progress
 from fitter.fits.reporting import (
     fit_warnings,
     insistence_warnings,
     person_warnings,
+    predict_given,
     shading_warnings,
 )
 from fitter.fits.search import Found, search
-from fitter.fits.settling import settle
-from fitter.fits.stage_clock import StageClock, ViewClock
-from fitter.fits.worn_clothing import clothing_warnings, with_what_clothes_cost
+from fitter.fits.verdict import settle
 from fitter.measurement.anthropometry import error_if_known, measure
 from fitter.measurement.quantity import Measurement
 from fitter.observation.subject import check_person
@@ -71,7 +70,7 @@ def fit(
     paper = request.choices.paper
     alone = None
     if paper is None:
-        pictures = _outlined(request, subject, equipment, clock)
+        pictures = _search_pictures(request, subject, equipment, clock)
         alone = _alone(request, subject, pictures)
         held = subject.known.attributes.held
         start = pictures[0].body.parameters.shape if alone is None else alone.shape
@@ -85,13 +84,13 @@ def fit(
             raise error.within(place) from error
         found = paper_search(pictures[0], subject, paper, request.choices.optimizer, clock)
         subject = with_height_found(subject, paper, found)
-        judged = as_judged(subject, found)
+        judged = with_all_terms(subject, found)
     known = subject.known
     with clock.stage(Stage.MEASUREMENT):
         people = settle(request.person.gender, subject, pictures, judged)
         shape = found.minimum.candidate.shape
         if paper is None:
-            people = _less_sure(people, subject, shape)
+            people = _with_wider_errors(people, subject, shape)
         else:
             people = without_standard_errors(people)
         covariance = people[0].person.shape_covariance
@@ -102,12 +101,12 @@ def fit(
             given=known.given,
             held=known.held,
         )
-        people = _told(people, subject, shape, measurements)
+        people = _with_cost_of_clothes(people, subject, shape, measurements)
         stages = _stages(subject, pictures, found, people, measurements)
         population = subject.prepared.population
         warnings = person_warnings(
             alone,
-            foretold(judged.energy, judged.minimum.candidate, known),
+            predict_given(judged.energy, judged.minimum.candidate, known),
             dict(zip(population.names, population.units, strict=True)),
             [view.kind for view in request.views],
             [each.person.body for each in people],
@@ -173,18 +172,18 @@ def _subject(request: FitRequest, equipment: Equipment) -> Subject:
     return Subject(prepared=prepared, known=known)
 
 
-def _outlined(
+def _search_pictures(
     request: FitRequest, subject: Subject, equipment: Equipment, clock: StageClock
-) -> list[Outlined]:
+) -> list[PictureSearch]:
     """Every picture by itself."""
     is_only = len(request.views) == 1
-    pictures: list[Outlined] = []
+    pictures: list[PictureSearch] = []
     for number, view in enumerate(request.views):
         detector = equipment.detector_for(view)
         of_view = ViewClock(clock=clock, view=number)
         try:
             pictures.append(
-                outlined(view, subject, request.choices, detector, of_view, is_only=is_only)
+                search_outline(view, subject, request.choices, detector, of_view, is_only=is_only)
             )
         except InvalidInputError as error:
             place = f"views.{number}"
@@ -193,7 +192,7 @@ def _outlined(
 
 
 def _alone(
-    request: FitRequest, subject: Subject, pictures: Sequence[Outlined]
+    request: FitRequest, subject: Subject, pictures: Sequence[PictureSearch]
 ) -> CombinedShape | None:
     """What several pictures say of the shape, each by itself."""
     if len(pictures) == 1:
@@ -201,7 +200,7 @@ def _alone(
     return combined_shape([_person_alone(request, subject, picture) for picture in pictures])
 
 
-def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> FittedPerson:
+def _person_alone(request: FitRequest, subject: Subject, picture: PictureSearch) -> FittedPerson:
     """The person as the outline of one picture tells them."""
     about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
     seen = about.evaluate([picture.body])
@@ -218,7 +217,7 @@ def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> F
     )
 
 
-def _less_sure(
+def _with_wider_errors(
     people: Sequence[PictureFit], subject: Subject, shape: Shape
 ) -> tuple[PictureFit, ...]:
     """The same, less sure of their shape by what harms the pictures."""
@@ -236,7 +235,7 @@ def _less_sure(
     )
 
 
-def _told(
+def _with_cost_of_clothes(
     people: Sequence[PictureFit],
     subject: Subject,
     shape: Shape,
@@ -263,7 +262,7 @@ def _told(
 
 def _stages(
     subject: Subject,
-    pictures: Sequence[Outlined],
+    pictures: Sequence[PictureSearch],
     found: Found,
     people: Sequence[PictureFit],
     measurements: Sequence[Measurement],
@@ -315,7 +314,7 @@ def _stage(subject: Subject, found: Found, name: str, candidate: JointCandidate)
 
 def _views(
     request: FitRequest,
-    pictures: Sequence[Outlined],
+    pictures: Sequence[PictureSearch],
     found: Found,
     people: Sequence[PictureFit],
 ) -> tuple[FittedView, ...]:

@@ -2,7 +2,7 @@
 
 A body can be fitted to anything that points are put on. What tells a person from a landscape, a
 circle, a dog or two people in one mask is how well the end of the search agrees with the evidence
-(:mod:`fitter.fits.contradiction` judges it).
+(:mod:`fitter.fits.verdict` judges it).
 """
 
 from dataclasses import dataclass

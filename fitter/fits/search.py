@@ -14,10 +14,9 @@ from fitter.energies.scales import scan_scales
 from fitter.energies.shading import ShadingEvidence
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.fits.clothing import where_bare
-from fitter.fits.outlined import Outlined
+from fitter.fits.outline_search import PictureSearch
 from fitter.fits.picture_objective import of_person
-from fitter.fits.progress import Stage
-from fitter.fits.stage_clock import StageClock
+from fitter.fits.progress import Stage, StageClock
 from fitter.optimizer.alternation import (
     SMOOTHNESS_SCHEDULE,
     ShadedFit,
@@ -127,7 +126,7 @@ class Found:
 
 
 def search(
-    pictures: Sequence[Outlined],
+    pictures: Sequence[PictureSearch],
     known: KnownPerson,
     shape: Shape,
     choices: Choices,
@@ -217,7 +216,7 @@ class _FirstLight:
     state: ShadingEvidence | None
 
 
-def _first_light(picture: Outlined, objective: Objective, seen: Candidate) -> _FirstLight:
+def _first_light(picture: PictureSearch, objective: Objective, seen: Candidate) -> _FirstLight:
     observation, asked = picture.observation, picture.view
     intensity = intensity_map(
         observation.luminance, observation.display, picture.segmentation.mask
@@ -231,7 +230,7 @@ def _first_light(picture: Outlined, objective: Objective, seen: Candidate) -> _F
 
 
 def _about(
-    pictures: Sequence[Outlined], objective: JointObjective, bodies: Sequence[Body]
+    pictures: Sequence[PictureSearch], objective: JointObjective, bodies: Sequence[Body]
 ) -> JointObjective:
     return objective.with_views(
         [

@@ -27,7 +27,7 @@ from fitter.detection.detector import DetectedSlants
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import FittedPoses, fit_clicks, turn_head
-from fitter.pose_init.click_problem import ClickProblem, click_problem
+from fitter.pose_init.click_problem import ClickedPoints, ClickProblem, click_problem
 from fitter.pose_init.landmark_rig import LandmarkRig, landmark_points, landmark_rig
 from fitter.pose_init.lifting import Lifting, PerspectiveLifting
 from fitter.pose_init.limbs import (
@@ -39,7 +39,6 @@ from fitter.pose_init.limbs import (
     limb_slant,
     reference_limb,
 )
-from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk import TrunkPoints, trunk_points
 from fitter.render.camera import Camera

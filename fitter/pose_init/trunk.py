@@ -19,6 +19,7 @@ from jaxtyping import Float, Integer
 from fitter.body.scape import CAMERA_AXES
 from fitter.errors import InvalidInputError
 from fitter.numerics.rotations import frames
+from fitter.pose_init.click_problem import ClickedPoints
 from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.lifting import FAR, NEAR, Lifting
 from fitter.pose_init.limbs import (
@@ -32,7 +33,6 @@ from fitter.pose_init.limbs import (
     limb_named,
     point_at_rest,
 )
-from fitter.pose_init.points import ClickedPoints
 
 Pixels = Mapping[str, Float[np.ndarray, "2"]]
 

@@ -15,12 +15,11 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import turn_head
-from fitter.pose_init.click_problem import click_problem
+from fitter.pose_init.click_problem import ClickedPoints, click_problem, clicked_points
 from fitter.pose_init.initial_pose import initialize_pose, reference_of
 from fitter.pose_init.landmark_rig import landmark_rig
 from fitter.pose_init.lifting import Lifting, OrthographicLifting, PerspectiveLifting
 from fitter.pose_init.limbs import limb_lengths_m
-from fitter.pose_init.points import ClickedPoints, clicked_points
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera

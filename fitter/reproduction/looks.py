@@ -10,8 +10,7 @@ from fitter.applications.caricature import (
     caricature_of_looks,
     caricature_of_most_unusual,
 )
-from fitter.applications.grounding import grounded
-from fitter.applications.motion import Motion, moving_body
+from fitter.applications.motion import Motion, grounded, moving_body
 from fitter.applications.poses import named_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import rig_of

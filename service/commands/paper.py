@@ -12,8 +12,14 @@ from fitter import request as fitter_request
 from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
-from fitter.reproduction.drawing import Pictures, Reproduction, reproduce
-from fitter.reproduction.index import PRINTED_TABLE, index_html, table_csv
+from fitter.reproduction.drawing import (
+    PRINTED_TABLE,
+    Pictures,
+    Reproduction,
+    index_html,
+    reproduce,
+    table_csv,
+)
 from fitter.reproduction.panels import Figure
 from fitter.reproduction.subject import PosedTruth, Subject
 from service.commands.fit import UNUSABLE_INPUT, read_request, told

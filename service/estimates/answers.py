@@ -9,8 +9,8 @@ from api_schemas.proposals import PointsRequest
 from fitter.detection.detector import Detector, installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
+from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
-from fitter.export.gltf_document import Frame
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Body, EnergyObserver
-from fitter.fits import outlined, search
+from fitter.fits import outline_search, search
 from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum
 from fitter.optimizer.search import BodySearch, body_search
 from fitter.vocabulary.choices import OptimizerKind
@@ -44,10 +44,10 @@ def recorded_searches() -> Iterator[list[Search]]:
 
         return recorded
 
-    for module in (outlined, search):
+    for module in (outline_search, search):
         module.body_search = recording
     try:
         yield found
     finally:
-        for module in (outlined, search):
+        for module in (outline_search, search):
             module.body_search = body_search

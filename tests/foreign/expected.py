@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from fitter.applications.cycle import motion_of_cycle
-from fitter.applications.grounding import grounded
-from fitter.applications.motion import moving_body
+from fitter.applications.motion import grounded, motion_of_cycle, moving_body
+from fitter.applications.named_motions import stride_of
 from fitter.applications.rig import rig_of
-from fitter.applications.walk import stride_of
 from fitter.arrays import Vertices
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt

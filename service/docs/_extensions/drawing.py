@@ -13,7 +13,7 @@ from fitter import Click, FitRequest, Gender, Person, View
 from fitter.applications.previews import View as BodyView
 from fitter.applications.previews import preview
 from fitter.arrays import Triangles, Vertices
-from fitter.reproduction.index import table_html
+from fitter.reproduction.drawing import table_html
 from fitter.reproduction.panels import Figure
 from fitter.reproduction.subject import Table
 from service.demo_data.sample import FOLDER

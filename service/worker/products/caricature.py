@@ -10,8 +10,8 @@ from api_schemas.products.caricature import (
 from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
 from fitter.applications.previews import View, preview
 from fitter.export.display import png
+from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
-from fitter.export.gltf_document import Frame
 from fitter.person.upright import upright_turn
 from service.worker.pipeline_port import Made
 from service.worker.products import Report

@@ -11,8 +11,8 @@ from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
 from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
+from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
-from fitter.export.gltf_document import Frame
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from service.worker.fit_results import body_result

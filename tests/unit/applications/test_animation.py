@@ -14,14 +14,12 @@ from fitter.applications.animation import (
     motion_of_clip,
     motion_of_name,
 )
-from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.gltf_skin import skin_of
-from fitter.applications.grounding import grounded
-from fitter.applications.motion import moving_body, unturned
+from fitter.applications.motion import grounded, motion_of_cycle, moving_body, unturned
 from fitter.applications.motion_file import read_motion
+from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose
 from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
-from fitter.applications.walk import stride_of
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import Gender

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from fitter.applications import bvh
 from fitter.applications.bvh import read_bvh
-from fitter.applications.clip import Stretch, stretch_of
+from fitter.applications.retarget import Stretch, stretch_of
 from fitter.errors import InvalidInputError
 
 ARM = """\

@@ -1,12 +1,15 @@
 import numpy as np
 import pytest
 
-from fitter.applications.cycle import motion_of_cycle
-from fitter.applications.grounding import grounded, sliding_m, sole_vertices
-from fitter.applications.motion import moving_body
-from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, least_jerk
+from fitter.applications.motion import (
+    grounded,
+    motion_of_cycle,
+    moving_body,
+    sliding_m,
+    sole_vertices,
+)
+from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, STANDARD_GRAVITY, least_jerk
 from fitter.applications.rig import beyond_limits
-from fitter.applications.walk import STANDARD_GRAVITY
 from fitter.numerics.rotations import rotation_matrices
 from tests.unit.applications.bodies import packaged
 

@@ -6,14 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fitter.applications.clip import stretch_of
-from fitter.applications.cycle import motion_of_cycle
-from fitter.applications.grounding import grounded, sliding_m
-from fitter.applications.motion import MovingBody, moving_body
+from fitter.applications.motion import MovingBody, grounded, motion_of_cycle, moving_body, sliding_m
 from fitter.applications.motion_file import read_motion
+from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import NAMED_POSES, named_pose
-from fitter.applications.retarget import Retargeted, retarget
-from fitter.applications.walk import stride_of
+from fitter.applications.retarget import Retargeted, retarget, stretch_of
 from fitter.body.model import global_rotations, posed_joints
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, NAMES, bvh_of

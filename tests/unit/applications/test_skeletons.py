@@ -1,6 +1,6 @@
 import pytest
 
-from fitter.applications.skeletons import NEEDED, PARTS, REQUEST, joints_of_parts, plain_name
+from fitter.applications.motion_file import NEEDED, PARTS, REQUEST, joints_of_parts, plain_name
 from fitter.errors import InvalidInputError
 from tests.unit.applications.bodies import packaged
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.applications.up_axis import AXES, found_up_axis, told_up_axis
+from fitter.applications.retarget import AXES, found_up_axis, given_up_axis
 
 DIRECTIONS = dict(
     zip(AXES, [[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0]], strict=True)
@@ -10,7 +10,7 @@ DIRECTIONS = dict(
 
 @pytest.mark.parametrize("axis", AXES)
 def test_every_axis_is_turned_to_the_worlds_up_without_mirroring(axis):
-    found = told_up_axis(axis)
+    found = given_up_axis(axis)
     np.testing.assert_array_equal(found.to_world @ DIRECTIONS[axis], [0, 1, 0])
     np.testing.assert_allclose(found.to_world @ found.to_world.T, np.eye(3))
     assert np.linalg.det(found.to_world) == pytest.approx(1.0)
@@ -18,7 +18,7 @@ def test_every_axis_is_turned_to_the_worlds_up_without_mirroring(axis):
 
 
 def test_a_file_whose_y_is_up_stays_as_it_is():
-    np.testing.assert_array_equal(told_up_axis("y").to_world, np.eye(3))
+    np.testing.assert_array_equal(given_up_axis("y").to_world, np.eye(3))
 
 
 @pytest.mark.parametrize("axis", AXES)

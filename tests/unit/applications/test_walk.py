@@ -1,12 +1,17 @@
 import numpy as np
 import pytest
 
-from fitter.applications.cycle import motion_of_cycle
-from fitter.applications.grounding import grounded, sliding_m, sole_vertices
-from fitter.applications.motion import Motion, moving_body
+from fitter.applications.motion import (
+    Motion,
+    grounded,
+    motion_of_cycle,
+    moving_body,
+    sliding_m,
+    sole_vertices,
+)
+from fitter.applications.named_motions import stride_angles, stride_of
 from fitter.applications.poses import named_pose
 from fitter.applications.rig import beyond_limits
-from fitter.applications.walk import stride_angles, stride_of
 from tests.unit.applications.bodies import packaged
 
 WINTER_SPEED_M_S = (0.9, 1.7)

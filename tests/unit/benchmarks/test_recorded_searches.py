@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitter.fits import outlined, pipeline, search
+from fitter.fits import outline_search, pipeline, search
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.search import body_search
 from tests.benchmarks.recorded_searches import recorded_searches
@@ -33,5 +33,5 @@ def test_a_recorded_search_is_the_one_the_fit_made():
 
 def test_the_record_ends_with_its_context():
     with recorded_searches():
-        assert all(module.body_search is not body_search for module in (outlined, search))
-    assert all(module.body_search is body_search for module in (outlined, search))
+        assert all(module.body_search is not body_search for module in (outline_search, search))
+    assert all(module.body_search is body_search for module in (outline_search, search))

@@ -1,7 +1,7 @@
 import numpy as np
 
+from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
-from fitter.export.gltf_document import Frame
 from fitter.parameters import Reflectance
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb

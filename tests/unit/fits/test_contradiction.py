@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from fitter.capture.finding import Code
-from fitter.fits.contradiction import contradiction
 from fitter.fits.plausibility import Plausibility
+from fitter.fits.verdict import contradiction
 from fitter.result import VERDICT_EXPLANATIONS
 from fitter.vocabulary.outcomes import Severity, Verdict
 

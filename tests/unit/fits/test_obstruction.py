@@ -7,7 +7,7 @@ import pytest
 
 from fitter.capture.finding import Code, Finding
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.obstruction import LEAST_OFF_M2, obstruction
+from fitter.fits.verdict import LEAST_OFF_M2, obstruction
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, WIDTH, boxes
 

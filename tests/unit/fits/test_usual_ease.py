@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.energies.scales import EASE_MEAN_M
-from fitter.fits.usual_ease import (
+from fitter.fits.clothing import (
     LONG_SLEEVED,
     SHORT_SLEEVED,
     USUAL_EASE_M,

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.fits.worn_clothing import worn_regions
+from fitter.fits.clothing_report import worn_regions
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering

@@ -6,12 +6,11 @@ import numpy as np
 
 from fitter.observation.clicks import click_spread_m
 from fitter.pose_init.click_fit import FittedPoses
-from fitter.pose_init.click_problem import ClickProblem, click_problem
+from fitter.pose_init.click_problem import ClickedPoints, ClickProblem, click_problem
 from fitter.pose_init.initial_pose import reference_of, refined_hypotheses
 from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.lifting import PerspectiveLifting
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
-from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera
 from fitter.request import Click

@@ -7,9 +7,8 @@ import pytest
 
 from fitter.body.pose_prior import joint_angles, mean_pose
 from fitter.pose_init.click_fit import turn_head
-from fitter.pose_init.click_problem import ClickProblem, click_problem
+from fitter.pose_init.click_problem import ClickedPoints, ClickProblem, click_problem
 from fitter.pose_init.landmark_rig import landmark_points
-from fitter.pose_init.points import ClickedPoints
 from tests.unit.pose_init.scenes import PRIOR, RIG, scene
 
 PLACE = np.array([[0.0, 0.0, 3.0]])

@@ -13,9 +13,9 @@ from fitter.body.shape_space import shape_for_height
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
+from fitter.pose_init.click_problem import ClickedPoints
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose
 from fitter.pose_init.landmark_rig import landmark_rig
-from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.scenes import CLICK_SPREADS_M, CLICKED

@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
+from fitter.pose_init.click_problem import ClickedPoints
 from fitter.pose_init.initial_pose import limb_facings, reference_of
 from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.lifting import OrthographicLifting, PerspectiveLifting
-from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk import trunk_points
 from fitter.vocabulary.choices import Facing

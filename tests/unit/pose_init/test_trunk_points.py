@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.pose_init.points import ClickedPoints, clicked_points
+from fitter.pose_init.click_problem import ClickedPoints, clicked_points
 from fitter.pose_init.trunk import trunk_points
 from fitter.request import Click
 from tests.unit.pose_init.scenes import LENGTHS

@@ -10,8 +10,13 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.observation.decoding import decode_picture
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
-from fitter.reproduction.drawing import Reproduction
-from fitter.reproduction.index import PRINTED_TABLE, index_html, table_cells, table_csv
+from fitter.reproduction.drawing import (
+    PRINTED_TABLE,
+    Reproduction,
+    index_html,
+    table_cells,
+    table_csv,
+)
 from fitter.reproduction.subject import COLUMNS
 from service.commands.paper import packaged_pictures
 from service.demo_data.sample import load_subject

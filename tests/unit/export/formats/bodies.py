@@ -10,8 +10,8 @@ from fitter.applications.textured_glb import textured_glb
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import png
+from fitter.export.glb import Frame
 from fitter.export.gltf import body_posed_glb, plain_glb
-from fitter.export.gltf_document import Frame
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import Gender

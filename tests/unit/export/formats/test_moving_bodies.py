@@ -7,12 +7,10 @@ import pytest
 import trimesh
 
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
-from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.gltf_skin import skin_of
-from fitter.applications.grounding import grounded
-from fitter.applications.motion import moving_body
+from fitter.applications.motion import grounded, motion_of_cycle, moving_body
+from fitter.applications.named_motions import stride_of
 from fitter.applications.principal_frames import principal_frames
-from fitter.applications.walk import stride_of
 from fitter.export.formats import converted
 from tests.unit.applications.bodies import packaged
 

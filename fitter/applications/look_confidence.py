@@ -10,14 +10,14 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Bool, Float
 
-from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.seen_surface import (
+from fitter.applications.picture_surface import (
     Beliefs,
     Colours,
-    SeenSurface,
+    PictureSurface,
     SurfacePoints,
     smooth_step,
 )
+from fitter.applications.rings import Region, RingCoordinates
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
 from fitter.numerics.rotations import unit_vectors
@@ -71,7 +71,7 @@ def distrust_hands(look: Look, model: BodyModel) -> Look:
     return trusted
 
 
-def limit_to_shown(look: Look, surface: SeenSurface) -> Look:
+def limit_to_shown(look: Look, surface: PictureSurface) -> Look:
     """The same look, at those points alone that the picture may show; 0 at all others."""
 
     def looked(points: SurfacePoints) -> tuple[Colours, Beliefs]:
@@ -92,7 +92,7 @@ def at_vertices(model: BodyModel) -> SurfacePoints:
     )
 
 
-def face_to_leave_out(surface: SeenSurface, model: BodyModel) -> Float[np.ndarray, " m"]:
+def face_to_leave_out(surface: PictureSurface, model: BodyModel) -> Float[np.ndarray, " m"]:
     """How far each vertex belongs to a face that is not seen as one; 0 for all where it is."""
     features, x = RingCoordinates.of(model).features, model.mean_vertices[:, 0]
     belief = surface.belief(at_vertices(model))

@@ -15,15 +15,14 @@ from fitter.fits.picture_objective import (
     with_silhouette,
 )
 from fitter.fits.prepared_model import PreparedModel
-from fitter.fits.progress import Stage
+from fitter.fits.progress import Stage, ViewClock
 from fitter.fits.reporting import limb_facings
-from fitter.fits.stage_clock import ViewClock
 from fitter.observation.observation import Observation, observe
 from fitter.optimizer.search import body_search, limits_of, try_hypotheses, with_lines_about
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson
+from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import initialize_pose
-from fitter.pose_init.points import clicked_points
 from fitter.request import Choices, View
 from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
@@ -40,7 +39,7 @@ class Subject:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Outlined:
+class PictureSearch:
     """A picture with a body near the minimum of E1.
 
     Attributes
@@ -83,7 +82,7 @@ class Outlined:
         return _about(objective, body, self.lines_on)
 
 
-def outlined(
+def search_outline(
     view: View,
     subject: Subject,
     choices: Choices,
@@ -91,7 +90,7 @@ def outlined(
     clock: ViewClock,
     *,
     is_only: bool,
-) -> Outlined:
+) -> PictureSearch:
     """Sections 3.1 to 3.3: pose from points, the person cut out twice, first steps towards E1.
 
     ``is_only`` says that there is no other picture.
@@ -177,7 +176,7 @@ def outlined(
             steps = contest(of_person(known, [lined]), [body])
             (body,) = steps.candidate.views
             evaluations += steps.evaluations
-    return Outlined(
+    return PictureSearch(
         view=view,
         observation=observation,
         trimap=labels,
