@@ -19,7 +19,7 @@ from jaxtyping import Float
 from fitter.arrays import Shape
 from fitter.capture.finding import Code, Finding
 from fitter.measurement.anthropometry import MeasuringBody, measurement_jacobian
-from fitter.vocabulary.measurements import WEIGHT
+from fitter.vocabulary.measurements import STATURE, WEIGHT
 from fitter.vocabulary.outcomes import Severity
 
 
@@ -72,7 +72,6 @@ _FACTORS: Final[Mapping[str, Callable[[Harm], float]]] = {
 """The measurements whose standard errors grow by exactly these factors. Others grow as far as their
 errors go along with these."""
 
-_STATURE: Final = "stature"
 _LEAST_VARIANCE: Final = 1e-6
 """What varies less was given."""
 
@@ -103,8 +102,8 @@ def widened_covariance(
     if all(factor == 1.0 for factor in factors.values()):
         return covariance
     names = [each.about.name for each in body.definitions]
-    told = dict.fromkeys([*factors, _STATURE, *given])
-    rows = [names.index(name) for name in told if name in names]
+    kept = dict.fromkeys([*factors, STATURE, *given])
+    rows = [names.index(name) for name in kept if name in names]
     jacobian = measurement_jacobian(body, shape)[rows]
     variances = np.einsum("kn,nj,kj->k", jacobian, covariance, jacobian)
     free = variances > _LEAST_VARIANCE

@@ -31,7 +31,6 @@ from fitter.measurement.definitions import (
 from fitter.measurement.plane_cut import BORDER_SHARE, Polyline
 from fitter.measurement.taking import (
     AXIS_OF,
-    CENTIMETRES_PER_METRE,
     LaidTapes,
     TakenBody,
     girth_axis,
@@ -42,6 +41,7 @@ from fitter.measurement.taking import (
 )
 from fitter.measurement.tape import SIDEWAYS, UNKNOWN, girth_normal
 from fitter.numerics.meshes import enclosed_volume, volume_gradient
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE
 
 LEAVING_M = 1e-6
 """A corner this far beyond its edge has left it: a fiftieth of what a step of the derivatives moves

@@ -29,8 +29,7 @@ from fitter.measurement.tape import (
     path_length_m,
 )
 from fitter.numerics.meshes import enclosed_volume
-
-CENTIMETRES_PER_METRE = 100.0
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE
 
 AXIS_OF = {Direction.SIDEWAYS: 0, Direction.FORWARD: 2}
 

@@ -15,9 +15,7 @@ from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation, height_warnings
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import KnownMeasurement, Person
-from fitter.vocabulary.measurements import STATURE
-
-CENTIMETRES_PER_METRE = 100.0
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -17,7 +17,7 @@ from fitter.fits.proposal import propose
 from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
 from service.estimates import translate
 from service.estimates.questions import (
     BodyTask,
@@ -31,8 +31,6 @@ from service.numerics.tasks import ProblemError
 from service.submissions.detector import no_detector
 from service.worker.pipeline_port import UnusableInputError
 from service.worker.translate import field_problem, known_measurements, person
-
-CENTIMETRES_PER_METRE = 100.0
 
 _TOO_MUCH_MEMORY = FieldProblem(
     field="image",

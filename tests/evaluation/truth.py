@@ -11,10 +11,9 @@ from fitter.body.model import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.affine_body import AffineBody
 from fitter.measurement.anthropometry import measure
-from fitter.measurement.taking import CENTIMETRES_PER_METRE
 from fitter.parameters import Light
 from fitter.vocabulary.choices import LightKind
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people import Person, posed_body
 from tests.evaluation.scene import DISTANT_M
