@@ -35,7 +35,7 @@ class BodyParameters:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CameraTilt:
-    """How the camera is held against gravity, and how the person stands under it.
+    """Tilt of the camera against gravity, and the stance of the person under it.
 
     In the camera frame (OpenCV axes) up is
     (-sin roll cos pitch, -cos roll cos pitch, sin pitch).
@@ -64,7 +64,7 @@ class CameraTilt:
 
     @property
     def standard_errors(self) -> tuple[float, float]:
-        """Of pitch and roll, radians."""
+        """Standard errors of pitch and roll, radians."""
         pitch, roll = np.sqrt(self.covariance.diagonal())
         return float(pitch), float(roll)
 

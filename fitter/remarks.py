@@ -1,4 +1,4 @@
-"""What a stage assumed for want of a word from the caller, and what the caller should look at."""
+"""Assumptions for want of a word from the caller, and warnings of what to look at."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What a fit is asked to do: the person, the pictures of them and the caller's choices."""
+"""Request of a fit: the person, the pictures of them and the caller's choices."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -38,7 +38,7 @@ class Click:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownMeasurement:
-    """What the caller knows of the person.
+    """A measurement that the caller knows of the person.
 
     Attributes
     ----------
@@ -71,20 +71,20 @@ class LightGuess:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SaidClothing:
-    """How the caller says that clothes lie on the upper body and on seat and legs."""
+    """Clothes on the upper body and on seat and legs, as the caller says."""
 
     upper: Clothing = Clothing.AUTO
     lower: Clothing = Clothing.AUTO
 
     @property
     def both(self) -> frozenset[Clothing]:
-        """What is said of either."""
+        """Words on either."""
         return frozenset({self.upper, self.lower})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Person:
-    """Who is in the pictures.
+    """The person in the pictures.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ class Paper:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Choices:
-    """How a fit is done, whatever the pictures.
+    """Choices of how a fit is done, whatever the pictures.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a fit gives back."""
+"""Result of a fit."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -37,7 +37,7 @@ VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbFacing:
-    """How a limb's depth ambiguity was resolved (section 3.1).
+    """Resolution of a limb's depth ambiguity (section 3.1).
 
     ``alternative_energy`` is the best energy found with the limb facing the other way, None where
     no such hypothesis was tried; ``ambiguous`` says that the two are close.
@@ -98,7 +98,7 @@ class PictureFit:
 
     @property
     def outcome_explanation(self) -> str:
-        """What the outcome means; where nothing is measured, by which findings, and what to do."""
+        """Meaning of the outcome; where nothing is measured, by which findings, and what to do."""
         if self.is_plausible:
             return OUTCOME_EXPLANATIONS[self.outcome]
         blocking = [each for each in self.findings if each.severity is Severity.BLOCKS]
@@ -135,7 +135,7 @@ class FittedView:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong with the picture, what blocks first."""
+        """Faults of the picture, what blocks first."""
         return self.found.findings
 
 
@@ -218,7 +218,7 @@ class FitResult:
 
     @property
     def person(self) -> FittedPerson:
-        """Who was found, as they stand in the first picture."""
+        """The person that was found, as they stand in the first picture."""
         return self.found.person
 
 

@@ -1,1 +1,1 @@
-"""What a finished fit is good for: other poses, motion, caricature."""
+"""Applications of a finished fit: other poses, motion, caricature."""

@@ -1,4 +1,4 @@
-"""How the joints of another skeleton are turned relative to the parts that they move.
+"""Rotations of another skeleton's joints relative to the parts that they move.
 
 A part is turned by R_target = R_source A, with one A for the whole clip. A file's rest pose cannot
 tell A: it may be a T-pose, the first frame, or every bone along one axis, with the same motion. If

@@ -41,7 +41,7 @@ Offset = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BvhFile:
-    """What a file holds, in its own axes and unit of length.
+    """Contents of a file, in its own axes and unit of length.
 
     Attributes
     ----------
@@ -279,7 +279,7 @@ def _after(lines: _Lines, label: str) -> list[str]:
 
 
 def _frames(lines: _Lines, channels: int, announced: int) -> "tuple[int, array[float]]":
-    """How many frames there are, and their numbers; a frame begins on a line of its own."""
+    """Number of frames, and their values; a frame begins on a line of its own."""
     numbers = array("d")
     frames = begun = wrapped = 0
     frame: list[float] = []

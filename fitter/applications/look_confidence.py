@@ -120,6 +120,6 @@ def _skin_of_bare_hands(
 
 
 def _away(colours: Colours, skin: Vector3) -> Float[np.ndarray, " k"]:
-    """How far the ratios of the channels are from skin's."""
+    """Distance of the channels' ratios from skin's."""
     ratio = np.maximum(colours, DARKEST) / np.maximum(skin, DARKEST)
     return np.ptp(np.log(ratio.T), axis=0)

@@ -98,7 +98,7 @@ FRAMES_PER_SECOND = 30.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Moment:
-    """How a person is held at a moment.
+    """Posture of a person at a moment.
 
     Attributes
     ----------
@@ -222,6 +222,6 @@ def sole_vertices(model: BodyModel) -> Integer[np.ndarray, " c"]:
 
 
 def _touching(heights: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t1 c"]:
-    """How much each vertex touches the ground from a frame to the next, in [0, 1]."""
+    """Contact of each vertex with the ground from a frame to the next, in [0, 1]."""
     weights = np.exp(-np.maximum(heights, 0.0) / CONTACT_HEIGHT_M)
     return np.minimum(weights[1:], weights[:-1])

@@ -37,7 +37,7 @@ _TEXT_HEIGHT = 0.45
 def painted_texture(
     painted: UInt8[np.ndarray, "h w 3"], model: BodyModel, *, field: str
 ) -> UInt8[np.ndarray, "n n 3"]:
-    """What was painted on the body's islands, drawn on into their margins.
+    """Paint on the body's islands, drawn on into their margins.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a picture shows of points on a fitted body's surface, and how far that can be believed.
+"""Colours of a fitted body's surface as a picture shows them, with their credibility.
 
 Hair has the colours of the scalp and hangs together with it in the picture. Cloth of the same
 colour may touch it; but hair does not cover most of a person.
@@ -150,7 +150,7 @@ class PictureSurface:
         return np.stack([sample(channel, pixels)[0] for channel in self._channels], axis=1)
 
     def belief(self, points: SurfacePoints) -> Float[np.ndarray, " k"]:
-        """How far the picture shows a point: 0 for hidden, 1 for seen squarely."""
+        """Visibility of points in the picture: 0 for hidden, 1 for seen squarely."""
         positions = points.of(self.rendering.vertices)
         normals = unit_vectors(points.of(self.rendering.vertex_normals))
         pixels = self._pixels(points)
@@ -246,7 +246,7 @@ def loose_hair(
     scalp: Bool[np.ndarray, " f"],
     face: Bool[np.ndarray, " f"],
 ) -> Mask:
-    """Where hair hides the body below the head.
+    """Places where hair hides the body below the head.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ _NEARLY_ONE = 0.99
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Angles:
-    """How a part is held, degrees: flexion, then abduction (arms, legs), then twist."""
+    """Angles of a part, degrees: flexion, then abduction (arms, legs), then twist."""
 
     flexion: float = 0.0
     abduction: float = 0.0

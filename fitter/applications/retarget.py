@@ -256,7 +256,7 @@ def _toes(source: MotionFile, ankle: int) -> Float[np.ndarray, "3"] | None:
 
 
 def _at(stretch: Stretch, joint: int, point: Float[np.ndarray, "3"]) -> Float[np.ndarray, "t 3"]:
-    """Where a point is that is fixed to a joint."""
+    """Places of a point that is fixed to a joint."""
     return stretch.positions[:, joint] + stretch.rotations[:, joint] @ point
 
 

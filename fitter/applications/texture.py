@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
+from fitter.applications.both_sides import BothSides, extend_light
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
 from fitter.applications.look_confidence import (
     BELIEVED,
@@ -30,7 +31,6 @@ from fitter.applications.picture_surface import (
     smooth_step,
 )
 from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.surface_field import BothSides, extend_light
 from fitter.arrays import Image, Mask
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
@@ -55,7 +55,7 @@ MIDDLE_SHARE = 0.05
 
 
 class TexelOrigin(IntEnum):
-    """Where a texel's colour comes from: the levels of the coverage picture."""
+    """Origins of a texel's colour: the levels of the coverage picture."""
 
     CONTINUED = 0
     MIRRORED = 128

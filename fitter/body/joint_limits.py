@@ -1,4 +1,4 @@
-"""How far joints turn, and where they usually are: one table.
+"""Ranges of joints, and their usual angles: one table.
 
 Limits are published ranges of motion from the anatomical position, degrees. Every direction of
 every joint names where its two limits come from:

@@ -130,7 +130,7 @@ class BodyModel:
 
     @property
     def checksum(self) -> str:
-        """Of the file it was read from; empty for a model that never was one."""
+        """Checksum of the file it was read from; empty for a model that never was one."""
         return str(self.header.get("checksum", ""))
 
 

@@ -27,7 +27,7 @@ from fitter.parameters import BodyParameters
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Attachments:
-    """How k points are attached to the body; in single precision, to halve what a search reads.
+    """Attachment of k points to the body; in single precision, to halve what a search reads.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Attachments:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TangentModel:
-    """What the tangent needs from a model, independent of shape and pose.
+    """Arrays of a model for its tangent, independent of shape and pose.
 
     Attributes
     ----------

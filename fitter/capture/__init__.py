@@ -1,4 +1,4 @@
-"""What is wrong with a picture that was taken to be measured, before any work is put into it.
+"""Faults of a picture that was taken to be measured, before any work is put into it.
 
 One module for each kind of check: a pure function of a :class:`~fitter.capture.capture.Capture`,
 which is a decoded picture with what a detector and the caller say of it.

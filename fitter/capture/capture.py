@@ -146,7 +146,7 @@ class Capture:
 
     @cached_property
     def joints(self) -> Joints:
-        """Where the points are that are looked at: the detector's own, else the caller's."""
+        """Points that are looked at: the detector's own, else the caller's."""
         return joints_of(self.points if self.body is None else self.body.points)
 
     @cached_property

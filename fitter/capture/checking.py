@@ -57,7 +57,7 @@ CODES_OF_PERSON = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Checked:
-    """What all checks say of a picture.
+    """Findings of all checks of a picture.
 
     Attributes
     ----------

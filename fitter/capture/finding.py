@@ -1,4 +1,4 @@
-"""What a check finds, and what it could not look at."""
+"""Findings of checks, and what they could not look at."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,7 +10,7 @@ Box = tuple[float, float, float, float]
 
 
 class Code(StrEnum):
-    """What may be found.
+    """Codes of what may be found.
 
     By a fit alone: ``COVERED``, that something is before or beside the person, and
     ``CONTRADICTED``, that no person was measured. Where proposals of points warn of the same,

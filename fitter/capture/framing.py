@@ -135,7 +135,7 @@ def _is_small(capture: Capture) -> bool:
 
 
 def _cuts(mask: Mask) -> list[Float[np.ndarray, "2"]]:
-    """Where a mask reaches the border: the middle of its stretch on each side, pixels."""
+    """Places where a mask reaches the border: the middle of its stretch on each side, pixels."""
     height, width = mask.shape
     places: list[tuple[float, float]] = []
     for side, row in ((mask[0], 0.0), (mask[-1], float(height))):
@@ -188,7 +188,7 @@ def roll(capture: Capture) -> Remark | None:
 
 
 def lean_deg(capture: Capture) -> float | None:
-    """How far the line from ankles to shoulders leans to the right, degrees in (-180, 180].
+    """Lean to the right of the line from ankles to shoulders, degrees in (-180, 180].
 
     None if it is not known, or trunk and legs do not point the same way.
     """

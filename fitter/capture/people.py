@@ -75,7 +75,7 @@ def nobody_else(capture: Capture) -> Remark | None:
 
 
 def _unsure_share(capture: Capture) -> float:
-    """Where the detector is unsure whether it sees the person, over the person's area."""
+    """Area in which the detector is unsure whether it sees the person, over the person's."""
     if capture.body is None or capture.mask is None or not capture.mask.any():
         return 0.0
     probability = capture.body.mask

@@ -1,4 +1,4 @@
-"""How blurred the person's edges are.
+"""Sharpness of the person's edges, and the light on them.
 
 Zhuo and Sim, "Defocus map estimation from a single image" (Pattern Recognition, 2011), section 2:
 an edge that is blurred with deviation σ and once more with σ₀ loses slope by the ratio
@@ -120,7 +120,7 @@ def _blur(grey: GreyImage, region: Mask) -> float | None:
 
 
 def _median_blur(slopes: Float[np.ndarray, " e"], again: Float[np.ndarray, " e"]) -> float:
-    """Of edges of these slopes, and these when blurred once more, pixels."""
+    """Median blur of edges of these slopes, and these when blurred once more, pixels."""
     ratio = np.maximum(slopes / np.maximum(again, 1e-9), 1.0 + 1e-6).astype(np.float64)
     variance = REBLUR_PX**2 / (ratio**2 - 1.0)
     return float(np.sqrt(max(float(np.median(variance)) - DENOISING_PX**2, 0.0)))

@@ -67,7 +67,7 @@ def posture(capture: Capture) -> Remark | None:
 
 
 def _head(capture: Capture) -> Finding | None:
-    """Of who bends over the head sinks between the shoulders, from whatever side they are seen."""
+    """Height of the head: of who bends over it sinks between the shoulders, from any side."""
     nose, shoulders = capture.joints.get("nose"), capture.middle("shoulder")
     if capture.body is None or capture.body.leaning_deg < STOOPED_DEG:
         return None
@@ -182,7 +182,7 @@ def _direction(in_picture: Float[np.ndarray, "2"], sine: float) -> Float[np.ndar
 
 
 def _knees_deg(directions: Directions) -> float:
-    """How far the straighter knee is bent; 0 where a thigh or a shin is not seen."""
+    """Bend of the straighter knee; 0 where a thigh or a shin is not seen."""
     return min(
         angle_deg(directions[f"{side}_thigh"], directions[f"{side}_shin"])
         if {f"{side}_thigh", f"{side}_shin"} <= directions.keys()

@@ -42,7 +42,7 @@ hidden by a table are off by 0.16, points of another picture by 0.24 and more (t
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbSlant:
-    """How a limb slants: the sine of its angle to the plane perpendicular to the view.
+    """Slant of a limb: the sine of its angle to the plane perpendicular to the view.
 
     Positive where its far end is farther from the camera; ``sigma`` is the standard deviation.
     """
@@ -53,7 +53,7 @@ class LimbSlant:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DetectedSlants:
-    """How a person's limbs slant.
+    """Slants of a person's limbs.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class DetectedSlants:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DetectedBody:
-    """What is proposed for one person.
+    """Proposals for one person.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the network's landmarks are called here, and how far each can be trusted.
+"""Names of the network's landmarks, and how far each can be trusted.
 
 Landmarks are where the annotators put them; what all bodies share of that is taken off first
 (:mod:`fitter.detection.landmark_meanings`). Spreads and slants were learned from 40 pictures of the
@@ -157,7 +157,7 @@ def _trunk_frame(world_m: Float[np.ndarray, "33 3"]) -> Float[np.ndarray, "3 3"]
 
 
 def _pixels_per_metre(landmarks: BodyLandmarks) -> float:
-    """Of the picture where the person is, by the size of trunk and legs."""
+    """Pixels per metre where the person is, by the size of trunk and legs."""
     pixels, metres = landmarks.pixels[_SCALED_BY], landmarks.world_m[_SCALED_BY, :2]
     return float(
         np.linalg.norm(pixels - pixels.mean(axis=0)) / np.linalg.norm(metres - metres.mean(axis=0))

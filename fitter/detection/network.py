@@ -88,7 +88,7 @@ _BLUR_SHARE = 0.4
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SquareCrop:
-    """Where a square of the picture lies.
+    """Place of a square in the picture.
 
     Attributes
     ----------

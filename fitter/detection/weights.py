@@ -1,4 +1,4 @@
-"""Where the networks' weights are: in a package that is never imported, or in a folder."""
+"""Place of the networks' weights: a package that is never imported, or a folder."""
 
 import hashlib
 import importlib.util
@@ -93,7 +93,7 @@ def _checked(file: WeightFile, folder: Path | None) -> Path:
 
 
 def _path(file: WeightFile, folder: Path | None) -> Path | None:
-    """Where a file should be; None if the package is not installed."""
+    """Expected path of a file; None if the package is not installed."""
     if folder is not None:
         return folder / file.name
     # Finding a package does not import it.

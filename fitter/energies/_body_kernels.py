@@ -98,7 +98,7 @@ def dot(a, b):
 @no_type_check
 @njit(cache=True)
 def cosine(a, b):
-    """Of the angle between two vectors."""
+    """Cosine of the angle between two vectors."""
     return dot(a, b) / np.sqrt(dot(a, a) * dot(b, b))
 
 
@@ -174,7 +174,7 @@ def weigh(vectors, tilt, kinds):
 @no_type_check
 @njit(cache=True)
 def normal_equations(vectors, tilt, weighed):
-    """Of half the weighted squares of the departures, with the kinds' shares held."""
+    """Normal equations of half the weighted squares of the departures, the kinds' shares held."""
     slopes = slopes_by_tilt(vectors, tilt)
     matrix, gradient = np.zeros((2, 2)), np.zeros(2)
     for i in range(FEATURES):

@@ -25,7 +25,7 @@ class RobustCost(NamedTuple):
 
 
 class Clothes(NamedTuple):
-    """How far each pixel (h, w) is cloth, and how full clothes are there (h, w, 2)."""
+    """Share of cloth of each pixel (h, w), and how full clothes are there (h, w, 2)."""
 
     cloth: np.ndarray
     fullness: np.ndarray

@@ -1,4 +1,4 @@
-"""What the caller knows of the body's measurements (section 4).
+"""Measurements of the body that the caller knows (section 4).
 
 Section 4 rotates the shape space so that a single axis changes stature, and says that the same
 works for any attribute measured on the mesh. A linear axis suffices for what is linear in the
@@ -43,7 +43,7 @@ class Attributes:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class KnownAttributes:
-    """What is known besides the stature.
+    """Known measurements besides the stature.
 
     Attributes
     ----------

@@ -64,7 +64,7 @@ class FittingOperators:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class WholeBody:
-    """What is drawn and reported of a body that is searched for on fewer vertices.
+    """The body that is drawn and reported where fewer vertices are searched.
 
     Attributes
     ----------

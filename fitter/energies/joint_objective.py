@@ -71,7 +71,7 @@ class JointObjective:
 
     @property
     def shape_terms(self) -> tuple[ShapeTerm, ...]:
-        """What is known of the shape, as energies."""
+        """Energies of what is known of the shape."""
         return shape_terms_of(self.shape_prior, self.attributes)
 
     def shape_equations(self, shape: Shape) -> ShapeEquations:

@@ -57,6 +57,6 @@ def slant_rows(landmarks: Points3D, evidence: SlantEvidence) -> PositionRows:
 
 
 def _excess(landmarks: Points3D, evidence: SlantEvidence) -> Float[np.ndarray, " s"]:
-    """How much farther each limb reaches than the detector's estimate, metres."""
+    """Excess of each limb's reach over the detector's estimate, metres."""
     limbs = landmarks[evidence.ends[:, 1]] - landmarks[evidence.ends[:, 0]]
     return limbs @ evidence.toward - evidence.reach_m

@@ -50,7 +50,7 @@ Body = BodyParameters | SeenBody
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Objective:
-    """What one picture says, as a function of the body: operators, evidence and scales are fixed.
+    """Energy of one picture as a function of the body: operators, evidence and scales are fixed.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a picture says, and a body as its camera sees it: what energies are computed from."""
+"""Evidence of a picture, and a body as its camera sees it: energies are computed from both."""
 
 from dataclasses import dataclass
 
@@ -23,7 +23,7 @@ from fitter.render.rasterizer import Rendering
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PictureEvidence:
-    """What the picture says.
+    """Evidence of one picture.
 
     Attributes
     ----------

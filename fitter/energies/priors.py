@@ -28,7 +28,7 @@ of ANSUR II's 49 other fields among men. Among women it is 0.015."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ShapePrior:
-    """What is known about the shape before the picture is seen, as N(m, P⁻¹).
+    """Knowledge of the shape before the picture is seen, as N(m, P⁻¹).
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ from fitter.vocabulary.outcomes import StanceKind
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StanceSpreads:
-    """How probable a kind of stance is, and how far its features spread.
+    """Probability of a kind of stance, and the spreads of its features.
 
     Attributes
     ----------
@@ -188,7 +188,7 @@ class _Weighed:
 
 
 def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "9 p"]:
-    """What makes the nine vectors of a stance of the joints.
+    """Matrix that makes the nine vectors of a stance of the joints.
 
     Right to left hip; middle of the ankles to centre of mass; right to left ankle; middle of the
     hips to middle of the shoulders; middle of the ankles; left thigh, left shin, right thigh,
@@ -296,7 +296,7 @@ def _turned(
     now: _Weighed,
     step: Float[np.ndarray, "2"],
 ) -> _Weighed:
-    """Where a step of pitch and roll leads, which is shortened where it is long."""
+    """Pitch and roll after a step, which is shortened where it is long."""
     shortened = min(1.0, _LONGEST_TURN / max(float(np.abs(step).max()), 1e-12))
     return _weighed(stance, kinds, now.tilt + shortened * step)
 

@@ -37,7 +37,7 @@ SERIES = tuple(1.0 / factorial(n) for n in range(12, -1, -1))
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
 def usable_samples(silhouette, centres, normals, reach, first, last):
-    """How far each line runs inside the body on one side, and outside it on the other.
+    """Samples of each line inside the body on one side, and outside it on the other.
 
     The pixel next to the centre may be on either side of the outline; the last one before another
     outline is left out, because that outline may be misplaced.

@@ -1,4 +1,4 @@
-"""Where the person ends on short lines across the body's contour, to a fraction of a pixel.
+"""Ends of the person on short lines across the body's contour, to a fraction of a pixel.
 
 GrabCut has one mixture of colours per side for the whole picture, and its cut follows joints and
 boards of a wall that resemble the skin. Near a body that is almost right the task is easier: on a

@@ -1,4 +1,4 @@
-"""Where an outline may be that of something else: what covers the person, or adjoins them.
+"""Parts of an outline that may be something else's: what covers the person, or adjoins them.
 
 A segmentation knows two values, and a thing before a person is given one or the other: a box before
 the hips is taken for the person, a bag before an arm for background. Its border is then no outline
@@ -67,7 +67,7 @@ def doubtful_outline(silhouette: SilhouetteEvidence, rendering: Rendering, displ
 def off_the_body(
     silhouette: SilhouetteEvidence, rendering: Rendering, where: Mask
 ) -> tuple[Mask, Mask]:
-    """What contradicts a body, within ``where`` (h, w) and without speckle.
+    """Pixels that contradict a body, within ``where`` (h, w) and without speckle.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def scale_of(rendering: Rendering) -> float:
 
 
 def _thing(spilt: Mask, person: Mask, near: Mask, display: Image) -> Mask:
-    """What has the colours of a region and is connected with it, within the person.
+    """Pixels with a region's colours that are connected with it, within the person.
 
     The region alone where that goes on beyond what is near: then it has the person's colours.
     """
@@ -105,7 +105,7 @@ def _thing(spilt: Mask, person: Mask, near: Mask, display: Image) -> Mask:
 
 
 def _distance(region: Mask) -> GreyImage:
-    """Of each pixel of a region to the nearest that is not in it, pixels."""
+    """Distance of each pixel of a region to the nearest that is not in it, pixels."""
     return cv2.distanceTransform(region.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
 
 

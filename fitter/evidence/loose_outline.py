@@ -19,7 +19,7 @@ WITHIN_M = 0.01
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LooseClothes:
-    """What is known about the clothes of a person said to wear loose ones.
+    """Knowledge of the clothes of a person said to wear loose ones.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class LooseOutline:
     def fullness_within(
         self, boundary: Points2D, normals: Points2D, pixels_per_metre: float
     ) -> Float[np.ndarray, "k 2"]:
-        """How far cloth at points of the boundary usually stands off."""
+        """Usual distance of cloth from the body at points of the boundary."""
         inside = boundary - WITHIN_M * pixels_per_metre * normals
         return np.stack([sample(self.fullness[..., k], inside)[0] for k in range(2)], axis=1)
 

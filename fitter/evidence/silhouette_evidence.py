@@ -1,4 +1,4 @@
-"""What the silhouette energy needs of a segmentation: region, distances and outline."""
+"""Evidence of the silhouette energy: region, distances and outline of a segmentation."""
 
 from dataclasses import dataclass, replace
 
@@ -72,7 +72,7 @@ class SilhouetteEvidence:
         return sample(self.cloth, points)[0]
 
     def fullness_at(self, points: Points2D) -> Float[np.ndarray, "k 2"]:
-        """How far clothes usually stand off at continuous pixels, 1 where nothing is known."""
+        """Usual distance of clothes at continuous pixels, 1 where nothing is known."""
         if self.fullness is None:
             return np.tile([1.0, 0.0], (len(points), 1))
         return np.stack([sample(self.fullness[..., k], points)[0] for k in range(2)], axis=1)

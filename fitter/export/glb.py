@@ -25,7 +25,7 @@ _SHAPE_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class Target(IntEnum):
-    """What a buffer view holds."""
+    """Content of a buffer view."""
 
     VERTEX_ATTRIBUTE = 34962
     TRIANGLE_INDICES = 34963

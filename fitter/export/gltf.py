@@ -106,7 +106,7 @@ def body_canonical_glb(result: FitResult, model: BodyModel) -> bytes:
 
 
 def _provenance(found: PictureFit) -> dict[str, object]:
-    """What fit it comes from."""
+    """The fit that a file comes from."""
     return {
         "method": "Guan, Weiss, Balan, Black: Estimating Human Shape and Pose from a Single "
         "Image, ICCV 2009",

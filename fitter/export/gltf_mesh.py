@@ -144,7 +144,7 @@ def _colours(reflectance: Reflectance, albedo_rgb: Vertices | None) -> Vertices:
 
 
 def colour_scale_of(reflectance: Reflectance | None, albedo_rgb: Vertices | None) -> float:
-    """What the file's colours are divided by, and its light is multiplied by."""
+    """Scale by which the file's colours are divided and its light is multiplied."""
     if reflectance is None:
         return 1.0
     brightest = float(np.percentile(_colours(reflectance, albedo_rgb), COLOUR_PERCENTILE))

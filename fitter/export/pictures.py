@@ -1,4 +1,4 @@
-"""What the fit saw and found, as pictures on the original's pixels, at most 1600 on a side."""
+"""Pictures of what the fit saw and found, on the original's pixels, at most 1600 on a side."""
 
 from typing import cast
 
@@ -46,7 +46,7 @@ def drawing_camera(image_camera: Camera) -> Camera:
 
 
 def drawing_pixels(image_camera: Camera) -> float:
-    """How many pixels of the original the drawing camera's picture can be made from."""
+    """Number of the original's pixels that the drawing camera's picture can be made from."""
     factor = drawing_camera(image_camera).focal_length_px / image_camera.focal_length_px
     return factor**2 * image_camera.width * image_camera.height
 

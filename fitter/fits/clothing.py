@@ -209,7 +209,7 @@ def clothing_seen(
     *,
     gender: str | None,
 ) -> tuple[WornRegion, ...] | None:
-    """How each region in sight is covered, before a body is fitted.
+    """Covering of each region in sight, before a body is fitted.
 
     None where it cannot be told, for nothing shows the colour of the person's skin.
 
@@ -274,7 +274,7 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
 
 
 def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
-    """Where skin shows, from every second or third pixel where there are enough."""
+    """Map of skin, from every second or third pixel where there are enough."""
     step = max(int(regions.pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
     middle = slice(step // 2, None, step)
     fewer = replace(
@@ -301,7 +301,7 @@ def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
 def _coverage(
     skin: SkinMap, regions: PersonRegions, said: SaidClothing, *, gender: str | None
 ) -> Coverage:
-    """What the caller says is covered, else what the picture shows."""
+    """Coverage as the caller says, else as the picture shows."""
     found = coverage(skin, regions, gender)
     if said.upper is Clothing.LOOSE:
         found = replace(found, top=1.0)
@@ -357,7 +357,7 @@ def _clicked_face(observation: Observation) -> np.ndarray:
 
 
 def _nose(rendering: Rendering, prepared: PreparedModel) -> np.ndarray | None:
-    """Where the nose of a rendered body is seen; None where it is hidden."""
+    """Place of the nose of a rendered body; None where it is hidden."""
     landmarks = prepared.searched.model.landmarks
     point = regress(landmarks, rendering.vertices)[landmarks.names.index("nose")]
     place = rendering.camera.project(point[None])[0]

@@ -1,4 +1,4 @@
-"""What is told of clothes: how each region is covered, how the outline was taken, the doubts."""
+"""Report of clothes: how each region is covered, how the outline was taken, the doubts."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -43,7 +43,7 @@ def worn_regions(
     bare: GreyImage | None,
     loose: GreyImage | None,
 ) -> tuple[WornRegion, ...]:
-    """How each region in sight is most probably covered.
+    """Most probable covering of each region in sight.
 
     ``bare`` and ``loose`` (h, w) are the probabilities that a pixel's part is bare, and that what
     covers it is loose; None of people in underwear, of whom the regions as a whole are told.
@@ -111,7 +111,7 @@ def clothes_are_guessed(objective: Objective, said: frozenset[Clothing]) -> bool
 
 
 def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[FitWarning, ...]:
-    """What makes doubtful how clothes were taken; empty for tight ones."""
+    """Doubts about how clothes were taken; empty for tight ones."""
     clothes = objective.evidence.clothes
     undressed = clothes is not None and clothes.looks_undressed
     return (_NOT_LOOSE,) if Clothing.LOOSE in said and undressed else ()

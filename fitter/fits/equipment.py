@@ -1,4 +1,4 @@
-"""What every fit uses: the body models and the detector, loaded once."""
+"""The body models and the detector that every fit uses, loaded once."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,7 @@ from fitter.vocabulary.choices import Gender, SegmentationKind
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Equipment:
-    """Where the body models and the detector's weights lie; each is loaded once a process.
+    """Folders of the body models and the detector's weights; each is loaded once a process.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How much less sure a shape is for what harms a picture: one table, by finding.
+"""Widening of a shape's errors by what harms a picture: one table, by finding.
 
 For light, blur and size the factors are the root mean squares of errors over standard errors on
 spoilt pictures of 14 people of the tuning halves, 84 fits with shading: they make them one again.

@@ -156,7 +156,7 @@ def initial_body(
 def limb_readings(
     hypotheses: Sequence[PoseHypothesis], said: Mapping[str, Facing]
 ) -> tuple[LimbReading, ...]:
-    """How the readings of the clicks, best first, differ in each limb."""
+    """Differences in each limb between readings of the clicks, best first."""
     best = hypotheses[0]
     readings: list[LimbReading] = []
     for limb, facing in best.facing.items():

@@ -38,7 +38,7 @@ Made = TypeVar("Made")
 
 
 def kept(source: Path, make: Callable[[], Made]) -> Made:
-    """What ``make`` makes of a file, or made of it before with the same code.
+    """Result of ``make``, or its earlier result of the same file by the same code.
 
     Arrays in it can be written to, which changes neither the file nor other processes'. What
     cannot be kept is made, and that is logged.

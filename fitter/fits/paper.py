@@ -107,7 +107,7 @@ _BY_SIMPLEX: Final = "A search by the simplex ends after 60,000 energies if it h
 
 
 def differences(choices: Choices) -> tuple[str, ...]:
-    """What still differs from the paper in a fit by its method, as plain sentences."""
+    """Differences from the paper of a fit by its method, as plain sentences."""
     simplex = choices.optimizer is OptimizerKind.SIMPLEX
     return (*_DIFFERENCES, _BY_SIMPLEX if simplex else _BY_GRADIENT)
 
@@ -325,5 +325,5 @@ def _limb_facing(initial: InitialPose, view: View) -> tuple[LimbFacing, ...]:
 
 
 def _moved_m(before: Candidate, after: Candidate) -> float:
-    """How far the vertices have moved, metres, on average."""
+    """Mean distance that the vertices have moved, metres."""
     return float(np.linalg.norm(after.vertices - before.vertices, axis=1).mean())

@@ -194,7 +194,7 @@ def _search_pictures(
 def _alone(
     request: FitRequest, subject: Subject, pictures: Sequence[PictureSearch]
 ) -> CombinedShape | None:
-    """What several pictures say of the shape, each by itself."""
+    """Shape as several pictures say it, each by itself."""
     if len(pictures) == 1:
         return None
     return combined_shape([_person_alone(request, subject, picture) for picture in pictures])
@@ -267,7 +267,7 @@ def _stages(
     people: Sequence[PictureFit],
     measurements: Sequence[Measurement],
 ) -> list[FitStage]:
-    """How the body came about: before any search, after E1, and after E2 if there was shading."""
+    """Stages of the body: before any search, after E1, and after E2 if there was shading."""
     shape = pictures[0].initial.shape
     initial = [replace(each.initial, shape=shape) for each in pictures]
     before = {"initial": found.objective.evaluate(initial)}

@@ -1,4 +1,4 @@
-"""How far the picture bears out that it is a person whom a body was fitted to.
+"""Plausibility that it is a person whom a body was fitted to.
 
 A body can be fitted to anything that points are put on. What tells a person from a landscape, a
 circle, a dog or two people in one mask is how well the end of the search agrees with the evidence
@@ -30,7 +30,7 @@ SEEN_CONFIDENCE = 0.2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plausibility:
-    """How far the evidence agrees with a fitted body.
+    """Agreement of the evidence with a fitted body.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ from fitter.vocabulary.choices import Gender
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PreparedModel:
-    """What a fit needs of a gender.
+    """A gender's model and what fits need besides.
 
     Attributes
     ----------

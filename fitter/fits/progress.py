@@ -1,4 +1,4 @@
-"""How a running fit reports what it is doing."""
+"""Progress of a running fit: stages, their time, and who is told."""
 
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -132,7 +132,7 @@ class ViewClock:
 
 
 def _span(begins: Mapping[Stage, float], stage: Stage) -> tuple[float, float]:
-    """Where a stage begins and the next one does."""
+    """Shares of the time at which a stage and the next one begin."""
     stages = list(begins)
     following = stages.index(stage) + 1
     return begins[stage], begins[stages[following]] if following < len(stages) else 1.0

@@ -98,7 +98,7 @@ _SAID = {ViewKind.FRONT: "the front", ViewKind.SIDE: "the side", ViewKind.BACK: 
 
 
 def outcome_of(*, converged: bool, overlap: float, verdict: Verdict) -> Outcome:
-    """How the search ended."""
+    """Outcome of the search."""
     if overlap < POOR_OVERLAP or verdict is not Verdict.PLAUSIBLE:
         return Outcome.POOR_FIT
     return Outcome.CONVERGED if converged else Outcome.EVALUATION_LIMIT
@@ -109,7 +109,7 @@ def limb_facings(
     tried: TriedHypotheses,
     said: Mapping[str, Facing],
 ) -> tuple[LimbFacing, ...]:
-    """How each limb's depth ambiguity was resolved (section 3.1)."""
+    """Resolution of each limb's depth ambiguity (section 3.1)."""
     chosen = hypotheses[tried.best]
     energy = tried.totals[tried.best]
     facings: list[LimbFacing] = []
@@ -135,7 +135,7 @@ def limb_facings(
 
 
 def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarning, ...]:
-    """What the caller should look at."""
+    """Warnings of what the caller should look at."""
     warnings: list[FitWarning] = []
     if overlap < POOR_OVERLAP:
         warnings.append(
@@ -190,7 +190,7 @@ def person_warnings(
     views: Sequence[ViewKind | None],
     bodies: Sequence[BodyParameters],
 ) -> tuple[FitWarning, ...]:
-    """What the caller should look at, in the fit as a whole.
+    """Warnings of what the caller should look at in the fit as a whole.
 
     ``alone`` is what several pictures say of the shape, each by itself; ``units`` are by
     measurement. A warning about one of several pictures names it by its place.
@@ -211,7 +211,7 @@ def person_warnings(
 
 
 def turned_deg(body: BodyParameters) -> float:
-    """How far a body is turned from facing the camera, degrees in [0, 180]."""
+    """Turn of a body from facing the camera, degrees in [0, 180]."""
     forward = rotation_matrices(body.pose[:1])[0][:, 2]
     return float(np.degrees(np.arctan2(np.hypot(forward[0], forward[1]), forward[2])))
 

@@ -40,7 +40,7 @@ from fitter.vocabulary.choices import Cues
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Schedule:
-    """How pictures are searched together.
+    """Schedule of the search of all pictures together.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class Found:
 
     @property
     def energy(self) -> JointObjective:
-        """What was minimised: E2, or E1 where no picture has shading."""
+        """The energy that was minimised: E2, or E1 where no picture has shading."""
         return with_shading(
             self.objective, [view.shading and view.shading.evidence for view in self.views]
         )

@@ -72,7 +72,7 @@ def _walk(
 @no_type_check
 @njit(cache=True)
 def trace_lines(vertices, shares, triangles, neighbours, allowed, candidates, heights, visited):
-    """What :func:`trace_section` returns, of heights above the plane that are known.
+    """Lines of :func:`trace_section`, of heights above the plane that are known.
 
     ``candidates`` may be all triangles or those that the plane crosses; ``visited`` is false for
     each of them before, and true for those on the lines after.

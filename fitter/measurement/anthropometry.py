@@ -215,7 +215,7 @@ def error_if_known(
     of: str,
     known: str,
 ) -> float:
-    """What knowing one measurement exactly would leave of another's standard error, in (0, 1].
+    """Share of a standard error that knowing another measurement exactly would leave, in (0, 1].
 
     For normal errors the variance of a under a known b is aΣa - (aΣb)² / bΣb; what the shapes leave
     unexplained of a stays.
@@ -236,7 +236,7 @@ def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "
 
 
 def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Float[np.ndarray, "_ 3"]]:
-    """Where on the canonical body each measurement is taken, by its name.
+    """Lines on the canonical body along which measurements are taken, by name.
 
     Lines of (k, 3) points in the body frame, metres; a girth's is closed by repeating its first
     point. A weight has none. Heights are taken in the standing pose, whose legs are straight down;
@@ -298,7 +298,7 @@ def _moved(body: MeasuringBody, shape: Shape, taken: TakenBody, step: float) -> 
 
 
 def _part_shares(model: BodyModel, parts: Sequence[str]) -> PerVertex:
-    """How far each vertex follows some parts, 0 to 1."""
+    """Share in which each vertex follows some parts, 0 to 1."""
     chosen = np.isin(model.skinning_parts, [model.part_names.index(part) for part in parts])
     weights = model.skinning_weights
     return np.where(chosen, weights, 0.0).sum(axis=1) / weights.sum(axis=1)

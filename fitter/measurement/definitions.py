@@ -23,7 +23,7 @@ SOLES: PointNames = ("sole_left", "sole_right")
 
 
 class Unit(StrEnum):
-    """What values are given in."""
+    """Units of values."""
 
     CENTIMETRES = "cm"
     KILOGRAMS = "kg"
@@ -37,21 +37,21 @@ class Selection(StrEnum):
 
 
 class Orientation(StrEnum):
-    """How the cutting plane lies: level with the floor, or square to the axis."""
+    """Orientation of the cutting plane: level with the floor, or square to the axis."""
 
     LEVEL = "level"
     ACROSS_AXIS = "across_axis"
 
 
 class Direction(StrEnum):
-    """Of a caliper."""
+    """Direction of a caliper."""
 
     SIDEWAYS = "sideways"
     FORWARD = "forward"
 
 
 class Agreement(StrEnum):
-    """How a measurement stands to the survey's."""
+    """Agreement of a measurement with the survey's."""
 
     SAME = "same"
     DIFFERS = "differs"

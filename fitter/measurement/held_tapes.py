@@ -52,7 +52,7 @@ Points = Float[np.ndarray, "b c 3"]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Crossings:
-    """Where planes cross edges, and whether any has left its edge."""
+    """Crossings of planes and edges, and whether any has left its edge."""
 
     along: Float[np.ndarray, "b ..."]
     points: Float[np.ndarray, "b ... 3"]
@@ -169,7 +169,7 @@ def _values(
 
 
 def _girth_corners(girth: Girth, held: HeldTapes, moved: MovedBodies) -> Points | None:
-    """Where the plane meets the edges; at a border, where the region's share falls to a half.
+    """Corners where the plane meets the edges, or where a region's share falls to a half.
 
     None where it no longer meets them.
     """

@@ -55,7 +55,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Polyline:
-    """Where a plane cuts a region: a closed loop, or an open line ending at the region's border.
+    """Line in which a plane cuts a region: a closed loop, or an open one that ends at its border.
 
     ``edges`` are the vertices of the mesh edges on which the points lie. Each lies on two: a point
     of the border between its crossings with both, every other on one that is named twice.
@@ -166,7 +166,7 @@ def _within(
 
 
 def _border_point(points: Points3D, shares: Float[np.ndarray, " k"], before: int) -> Vector3:
-    """Where the share passes the border's between a point and the next."""
+    """Point at which the share passes the border's between a point and the next."""
     low, high = shares[before], shares[before + 1]
     along = (BORDER_SHARE - low) / (high - low)
     return points[before] + along * (points[before + 1] - points[before])

@@ -1,4 +1,4 @@
-"""What a measurement is to those who read it."""
+"""Measurements as their readers see them."""
 
 from dataclasses import dataclass
 from typing import Final

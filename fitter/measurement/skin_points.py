@@ -27,7 +27,7 @@ _CORNERS = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SkinPoint:
-    """Where a ray leaves the skin.
+    """Point where a ray leaves the skin.
 
     Attributes
     ----------

@@ -214,7 +214,7 @@ def _caliper(corners: Points3D, direction: Direction) -> Float[np.ndarray, "ends
 
 
 def girth_axis(girth: Girth, points: Mapping[str, Place]) -> tuple[Place, Place]:
-    """Where the girth's fractions 0 and 1 lie, of one body or of many at once."""
+    """Ends of a girth's axis, fractions 0 and 1, of one body or of many at once."""
     start, end = mean_point(girth.start, points), mean_point(girth.end, points)
     if girth.origin is None:
         return start, end

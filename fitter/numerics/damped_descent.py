@@ -54,7 +54,7 @@ class Offer(Generic[Point]):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Descent(Generic[Point]):
-    """Where a search ended.
+    """End of a search.
 
     ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies.
     """

@@ -1,4 +1,4 @@
-"""What keeps a triangle mesh from being the skin of a body, in words a user can act on."""
+"""Faults that keep a triangle mesh from being the skin of a body, in words a user can act on."""
 
 import numpy as np
 from jaxtyping import Bool, Integer

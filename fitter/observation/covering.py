@@ -1,4 +1,4 @@
-"""How a person's regions are covered, as a picture shows it."""
+"""Covering of a person's regions, as a picture shows it."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from fitter.vocabulary.choices import BodyRegion, Covering
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WornRegion:
-    """How a region is most probably covered.
+    """Most probable covering of a region.
 
     Attributes
     ----------

@@ -175,7 +175,7 @@ def _opened(data: bytes, *, field: str, max_pixels: int) -> PillowImage.Image:
 
 
 def _reduction(picture: PillowImage.Image, enough_pixels: float) -> int:
-    """How much smaller a decoder may make the picture on its way, in each direction."""
+    """Factor by which a decoder may make the picture smaller, in each direction."""
     if picture.format not in _REDUCIBLE:
         return 1
     pixels = picture.width * picture.height

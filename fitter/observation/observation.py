@@ -1,4 +1,4 @@
-"""What the fit sees: the working picture, its camera, the clicks and the caller's mask."""
+"""Observation of a fit: the working picture, its camera, the clicks and the caller's mask."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -160,7 +160,7 @@ def _said_by_region(clothing: Clothing | SaidClothing) -> SaidClothing:
 
 
 def _posture(kind: ViewKind | None) -> Posture:
-    """Who is measured stands as asked; in other pictures people do as they like."""
+    """Posture: who is measured stands as asked; in other pictures people do as they like."""
     return Posture.ANY if kind in (None, ViewKind.OTHER) else Posture.MEASURED
 
 

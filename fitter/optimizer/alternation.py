@@ -71,7 +71,7 @@ Round = tuple[float, BodySearch]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Alternated:
-    """Where the alternation ended.
+    """End of the alternation.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class Alternated:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ShadedFit:
-    """What the alternation found in one picture.
+    """Light and reflectance that the alternation found in one picture.
 
     Attributes
     ----------
@@ -189,7 +189,7 @@ def next_shading(
 
 
 def shaded_fit(objective: Objective, final: Candidate, state: ShadingEvidence) -> ShadedFit:
-    """What is reported of a picture once the body no longer moves.
+    """Light and reflectance that are reported of a picture once the body no longer moves.
 
     The reflectance is found again for the final body, so that what is drawn is what was found.
     """

@@ -32,7 +32,7 @@ would end apart by as much."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Minimum:
-    """Where a search ended.
+    """End of a search.
 
     ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies, of
     all pictures together.

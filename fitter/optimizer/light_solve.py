@@ -104,7 +104,7 @@ def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimat
 
 
 def guessed_lights(guess: LightGuess) -> tuple[Light, ...]:
-    """Where to begin: the caller's rough guess (section 5), or all around if there is none."""
+    """First lights: the caller's rough guess (section 5), or all around if there is none."""
     distance = float("inf")
     if guess.kind is LightKind.POINT:
         distance = guess.distance or _USUAL_DISTANCE_M

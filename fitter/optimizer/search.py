@@ -117,7 +117,7 @@ def with_lines_about(objective: Objective, body: Body, display: Image) -> Object
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TriedHypotheses:
-    """Where the searches ended, in the order of the hypotheses, compared under one objective.
+    """Ends of the searches, in the order of the hypotheses, compared under one objective.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How certain shape and tilt are: the Laplace approximation at the final bodies.
+"""Certainty of shape and tilt: the Laplace approximation at the final bodies.
 
 Energies are negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance
 of all parameters near the minimum. The albedo of each vertex is held, as is everything else the
@@ -36,7 +36,7 @@ _FEWEST_LINES: Final = 5.0
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Certainty:
-    """How certain the body in one picture is, given all, with light and ease marginalised.
+    """Certainty of the body in one picture, given all, with light and ease marginalised.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Certainty:
 
 
 def certainty(objective: JointObjective, candidate: JointCandidate) -> tuple[Certainty, ...]:
-    """How certain each picture's body is, given all pictures.
+    """Certainty of each picture's body, given all pictures.
 
     The information about the shape is what every picture says of it once its own pose and place
     are eliminated, weighted, and what was known; the shape's covariance is its inverse Σ. With a
@@ -100,7 +100,7 @@ def certainty(objective: JointObjective, candidate: JointCandidate) -> tuple[Cer
 def body_information(
     objective: Objective, candidate: Candidate
 ) -> Float[np.ndarray, "columns columns"]:
-    """What a picture says of all its body's parameters, with light and ease marginalised."""
+    """Information of a picture on all its body's parameters, light and ease marginalised."""
     matrix, _ = normal_equations(objective, candidate, marginal=True)
     return matrix
 
@@ -176,7 +176,7 @@ def covered_distances(
 
 
 def _height_response(space: FreeSpace, information: Float[np.ndarray, "n n"]) -> Shape:
-    """How the most probable shape changes with the height coefficient.
+    """Change of the most probable shape with the height coefficient.
 
     What is held is kept. With the precision Q of all that tells of the shape, pictures and what was
     known, the response e that keeps what is held and the free directions B, it is

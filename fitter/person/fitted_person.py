@@ -1,4 +1,4 @@
-"""What applications need of a finished fit, in full precision, as one small file.
+"""A finished fit as applications need it, in full precision, as one small file.
 
 ``person.npz`` holds a JSON header and arrays in double precision, without pickle. Its fields:
 

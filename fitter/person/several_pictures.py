@@ -129,7 +129,7 @@ def counted_as(pictures: int, *, shared: float = SHARED_ERROR) -> float:
 
 
 def known_covariance(person: FittedPerson) -> Float[np.ndarray, "n n"]:
-    """How certain the shape of a fit is; fits that do not know have been refused."""
+    """Covariance of a fit's shape; fits that have none have been refused."""
     assert person.shape_covariance is not None
     return person.shape_covariance
 
@@ -150,7 +150,7 @@ def _agreement(
     precision: Float[np.ndarray, "d d"],
     prior_step: Float[np.ndarray, " d"],
 ) -> float:
-    """How probable so large a difference between one picture and the others together is."""
+    """Probability of so large a difference between one picture and the others together."""
     count = len(steps)
     weight = counted_as(count - 1) / (count - 1)
     matrix, pull = precision.copy(), precision @ prior_step
@@ -179,7 +179,7 @@ def _looked_at(count: int) -> int:
 
 
 def _as_extreme(squares: Float[np.ndarray, " d"]) -> float:
-    """How probable independent squared deviations like these are: of the largest, or their sum.
+    """Probability of independent squared deviations like these: of the largest, or their sum.
 
     People differ most in how heavy they are, along one or two directions among many; the sum alone
     would lose them. The smaller probability counts twice, because there are two.

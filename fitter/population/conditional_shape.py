@@ -47,7 +47,7 @@ that say the same leave a residual instead of an infinity."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MeasuredShapes:
-    """How bodies are measured: k measurements as functions of n coefficients.
+    """Measurements of bodies: k of them as functions of n coefficients.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class MeasuredShapes:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Conditions:
-    """What is known: r of the measurements, in their units, and with which variances."""
+    """Known measurements: r of them, in their units, with their variances."""
 
     rows: Sequence[int]
     values: Float[np.ndarray, " r"]

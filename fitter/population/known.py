@@ -1,4 +1,4 @@
-"""What is known about somebody, and what is wrong with it if nobody is like that."""
+"""Knowledge about somebody, and its fault if nobody is like that."""
 
 from collections.abc import Mapping, Sequence
 

@@ -49,7 +49,7 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorFigures:
-    """What pairs of one measurement say.
+    """Errors of one measurement.
 
     Attributes
     ----------

@@ -87,7 +87,7 @@ class Unknowns(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """Of a search: steps tried, the gain below which it ends, its dampings, the matrix's floor."""
+    """Limits of a search: steps, the gain below which it ends, dampings, the matrix's floor."""
 
     steps: int
     settled: float
@@ -233,7 +233,7 @@ def add_hints(points, moves, hints, row, equations):
 @no_type_check
 @njit(cache=True)
 def trunk_energy(root, spreads):
-    """Of the root's rotation: how far its x and y axes leave the image plane, as sines."""
+    """Energy of the root's rotation: its x and y axes' slants from the image plane, as sines."""
     return 0.5 * ((root[2, 0] / spreads[0]) ** 2 + (root[2, 1] / spreads[1]) ** 2)
 
 

@@ -83,7 +83,7 @@ def fit_clicks(
 
 
 def unknowns_of(problem: ClickProblem) -> kernels.Unknowns:
-    """What is solved for."""
+    """Unknowns that are solved for."""
     return kernels.Unknowns(np.flatnonzero(problem.turning), problem.moving)
 
 

@@ -86,7 +86,7 @@ FACING_SPREAD_M = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlantHints:
-    """How far limbs reach along the view.
+    """Reach of limbs along the view.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class SlantHints:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ClickProblem:
-    """What to fit.
+    """The clicks and the terms that a pose is fitted to.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a camera model must provide to lift clicked limbs into three dimensions.
+"""Camera models that lift clicked limbs into three dimensions.
 
 There are two: :mod:`fitter.pose_init.lifting` (Lee and Chen, the paper's choice) and
 :mod:`fitter.pose_init.lifting` (Taylor, the paper's comparison). The code that traverses the

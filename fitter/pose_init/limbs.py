@@ -185,7 +185,7 @@ TRUNCATION = 1.5
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LimbReaches:
-    """How much farther along the view the far ends of limbs lie than the near ones.
+    """Distances along the view from the near ends of limbs to the far ones.
 
     Attributes
     ----------

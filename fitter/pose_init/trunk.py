@@ -1,4 +1,4 @@
-"""Where the trunk can be: every reading of its slant, with the root's depth.
+"""Places of the trunk: every reading of its slant, with the root's depth.
 
 Three things are ambiguous: whether the torso leans toward the camera or away, and which hip and
 which shoulder is nearer. Whether the view is from the front or the back is not: it follows from

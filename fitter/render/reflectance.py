@@ -179,7 +179,7 @@ def shade_with_derivatives(
 
 
 def _source(light: Light, body_centre: Vector3) -> Vector3:
-    """Where the light stands; a distant light stands nowhere, and the kernels do not look."""
+    """Place of the light; a distant light has none, and the kernels do not look."""
     if light.kind is LightKind.DIRECTIONAL:
         return np.zeros(3)
     return light_position(light, body_centre)

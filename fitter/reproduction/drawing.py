@@ -27,7 +27,7 @@ BY_OURS: Final = "by this package's method"
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Pictures:
-    """What the figures are drawn of.
+    """Pictures that the figures are drawn of.
 
     Attributes
     ----------

@@ -103,7 +103,7 @@ class Table:
 
 
 def table_1(title: str, subject: Subject, results: Sequence[FitResult]) -> Table:
-    """What fits of the subject's pictures measure."""
+    """Measurements of fits of the subject's pictures."""
     return Table(
         title=title,
         rows=tuple(
@@ -151,7 +151,7 @@ def figure_8(name: str, title: str, subject: Subject, results: Sequence[FitResul
 
 
 def displacements_m(found: Vertices, true: Vertices) -> Float[np.ndarray, " m"]:
-    """How far each vertex is off, metres, with both bodies' centres together."""
+    """Distance of each vertex from the truth, metres, with both bodies' centres together."""
     off = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
     return np.linalg.norm(off, axis=1)
 

@@ -43,7 +43,7 @@ _JOINTS: Final[Mapping[str, str]] = {
 
 
 def part_joints(points: Mapping[str, Place]) -> dict[str, Place]:
-    """Where the limbs' parts begin, by the parts' names, as far as their points are known."""
+    """First joints of the limbs' parts by name, as far as their points are known."""
     return {
         f"{side}_{part}": points[f"{side}_{joint}"]
         for part, joint in _JOINTS.items()

@@ -37,7 +37,7 @@ _OUTLIERS: Final = 0.05
 
 
 class Covers(Enum):
-    """What an outfit has on trunk and legs."""
+    """Covers of trunk and legs by an outfit."""
 
     TOP = "top"
     BOTTOM = "bottom"
@@ -209,7 +209,7 @@ class Coverage:
         return (always + seen * skin.probability).astype(np.float32)
 
     def _shares(self, part: str) -> tuple[float, float]:
-        """How probable it is that a part is bare anyway, and where its colour says so."""
+        """Probabilities that a part is bare anyway, and where its colour says so."""
         kind = part.removeprefix("left_").removeprefix("right_")
         if kind in _UNDER_BOTTOM:
             hidden = {"thigh": self.bottom_like_skin, "pelvis": self.top_like_skin}
@@ -222,7 +222,7 @@ class Coverage:
 
 
 def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Coverage:
-    """What a person wears, from the share of skin on each region of a body near them.
+    """Clothes of a person, from the share of skin on each region of a body near them.
 
     Where no colour was learnt, as in a grey picture, trunk and legs are taken to be covered: people
     in pictures mostly are. Of a gender that is not known, it is what either wears.
@@ -285,7 +285,7 @@ def _subsets(covers: frozenset[Covers]) -> list[frozenset[Covers]]:
 def _likelihood(
     shares: Mapping[str, tuple[float, float]], seen: Mapping[str, float], poor_light: float
 ) -> float:
-    """Of what is seen, in even or in poor light."""
+    """Likelihood of what is seen, in even or in poor light."""
     even, poor = 1.0 - poor_light, poor_light
     for region, share in seen.items():
         even *= _density(shares[region], share)

@@ -216,7 +216,7 @@ def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap, preferred: 
 
 
 def _without_speckle(mask: Mask, sure: Mask) -> Mask:
-    """What is connected to the sure foreground, without small holes."""
+    """Foreground that is connected to what is sure, without small holes."""
     if not mask.any():
         return mask
     whole, window = mask, window_about(mask, margin=1)
@@ -251,7 +251,7 @@ and of a body."""
 
 
 def preference(seed: GreyImage, silhouette: Mask | None) -> GreyImage:
-    """How much each pixel prefers to be the person, nats; negative for background.
+    """Preference of each pixel to be the person, nats; negative for background.
 
     Parameters
     ----------

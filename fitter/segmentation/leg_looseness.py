@@ -126,7 +126,7 @@ def _nearest_value(image: GreyImage, place: Float[np.ndarray, "2"]) -> float:
 def _reach(
     person: Mask, start: Float[np.ndarray, "2"], along: Float[np.ndarray, "2"], most: float
 ) -> float:
-    """How far the mask goes on from a place in a direction, pixels."""
+    """Distance that the mask goes on from a place in a direction, pixels."""
     height, width = person.shape
     distances = np.arange(0.0, most, _STEP_PX)
     columns, rows = np.floor(start + distances[:, None] * along).astype(int).T

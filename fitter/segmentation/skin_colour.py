@@ -68,7 +68,7 @@ SomeFeatures = Float32[np.ndarray, "_ 3"]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SkinMap:
-    """Where the person is bare.
+    """Map of where the person is bare.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class SkinMap:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PersonRegions:
-    """Where the parts of a body near the person lie in the picture.
+    """Places in the picture of the parts of a body near the person.
 
     Attributes
     ----------
@@ -308,5 +308,5 @@ def _smoothed(values: GreyImage, region: Mask, deviation_px: float) -> GreyImage
 def face_point(
     clicked: Points2D, nose: Float[np.ndarray, "2"] | None
 ) -> Float[np.ndarray, "2"] | None:
-    """Where the face is: the mean of the clicks on it, else the nose of a rendered body."""
+    """Place of the face: the mean of the clicks on it, else the nose of a rendered body."""
     return clicked.mean(axis=0) if len(clicked) else nose

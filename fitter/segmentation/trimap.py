@@ -40,7 +40,7 @@ LEAST_BONES_COVERED = 0.95
 
 
 class TrimapLabel(IntEnum):
-    """What is known about a pixel; the numbers are OpenCV's.
+    """Labels of what is known about a pixel; the numbers are OpenCV's.
 
     The paper's tri-map has one uncertain label. Here the band has two, for the side where GrabCut
     starts a pixel; both are open to change.

@@ -1,4 +1,4 @@
-"""What a caller may choose."""
+"""Choices of a caller."""
 
 from enum import StrEnum
 

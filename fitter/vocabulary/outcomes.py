@@ -1,4 +1,4 @@
-"""What a result may say."""
+"""Words of a result."""
 
 from enum import StrEnum
 
@@ -24,7 +24,7 @@ class Verdict(StrEnum):
 
 
 class FacingSource(StrEnum):
-    """Who decided which way a limb faces."""
+    """Source of the way a limb faces."""
 
     CALLER = "caller"
     ENERGY = "energy"

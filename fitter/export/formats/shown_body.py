@@ -1,4 +1,4 @@
-"""What all the other formats are written from: a body's surface and how it looks."""
+"""A body's surface and its looks, of which all other formats are written."""
 
 import json
 import struct
@@ -74,7 +74,7 @@ class Texture:
 
     @property
     def name(self) -> str:
-        """Of the picture as a file beside others."""
+        """Name of the picture as a file beside others."""
         return {"image/png": "texture.png", "image/jpeg": "texture.jpg"}[self.media_type]
 
 

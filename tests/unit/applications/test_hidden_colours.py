@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 from fitter.applications.atlas import atlas_of
+from fitter.applications.both_sides import FORGOTTEN_M
 from fitter.applications.picture_surface import SurfacePoints
 from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.surface_field import FORGOTTEN_M, extend_values
+from fitter.applications.surface_field import extend_values
 from fitter.applications.texture import TexelOrigin, picture_texture
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.observation.colour import linear_from_display

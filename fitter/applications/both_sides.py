@@ -1,0 +1,81 @@
+"""Points of a body as they are seen, or as their mirror images on its other side are.
+
+The other side stands in other light: where both are seen their colours differ by a factor, by which
+what is mirrored beside it is changed too; over some centimetres that is forgotten.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from fitter.applications.look_confidence import BELIEVED, DARKEST, Look, at_vertices
+from fitter.applications.picture_surface import Beliefs, Colours, SurfacePoints
+from fitter.applications.surface_field import extend_values
+from fitter.body.model import BodyModel
+
+FORGOTTEN_M = 0.06
+"""Along the surface, over which the light at a border loses its influence by e."""
+
+MOST_RATIO = 0.6
+"""Logarithm of the most that light differs by: more is another colour, which is not carried on."""
+
+_CHUNK = 1 << 17
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BothSides:
+    """A look at both sides of a body.
+
+    Attributes
+    ----------
+    ratios
+        (m, 3) logarithms of what colours of the other side are multiplied by.
+    """
+
+    look: Look
+    model: BodyModel
+    ratios: Float[np.ndarray, "m 3"]
+
+    @classmethod
+    def of(cls, look: Look, model: BodyModel) -> "BothSides":
+        """A look, with the difference between the sides where it shows both."""
+        colours, seen = look(at_vertices(model))
+        both = (seen >= BELIEVED) & (seen[model.mirror] >= BELIEVED)
+        ratios = extend_light(model, both, colours, colours[model.mirror])
+        return cls(look=look, model=model, ratios=ratios)
+
+    def at(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
+        """Colours of points, how far they are seen, and how far their mirror image is instead.
+
+        The colour is the mean of both, each by its weight; the point itself comes first.
+        """
+        parts = [
+            self._at_few(points.some(slice(first, first + _CHUNK)))
+            for first in range(0, len(points.corners), _CHUNK)
+        ]
+        colours, seen, mirrored = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return colours, seen, mirrored
+
+    def _at_few(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
+        colours, seen = self.look(points)
+        mirror = SurfacePoints(corners=self.model.mirror[points.corners], weights=points.weights)
+        other, belief = self.look(mirror)
+        other = other * np.exp(points.of(self.ratios))
+        mirrored = (1.0 - seen) * belief
+        total = np.maximum(seen + mirrored, 1e-12)[:, None]
+        return (seen[:, None] * colours + mirrored[:, None] * other) / total, seen, mirrored
+
+
+def extend_light(
+    model: BodyModel, known: Bool[np.ndarray, " m"], colours: Colours, others: Colours
+) -> Float[np.ndarray, "m 3"]:
+    """Logarithms of what makes other colours of vertices these, as far as light does.
+
+    Where they are known, and from there toward 0 by e over :data:`FORGOTTEN_M`.
+    """
+    ratios = np.log(np.maximum(colours, DARKEST) / np.maximum(others, DARKEST))
+    lit = known & (np.abs(ratios).max(axis=1) < MOST_RATIO)
+    if not lit.any():
+        return np.zeros_like(ratios)
+    return extend_values(model, lit, ratios, over_m=FORGOTTEN_M)
