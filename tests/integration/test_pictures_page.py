@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()
 
 MAKERS = ("fitter/applications", "service/worker/products")
-"""Where what is made of fits warns; several pictures warn of the same as a scan."""
+"""Where products warn."""
 
 
 def rows(heading: str) -> dict[str, str]:
@@ -40,7 +40,7 @@ CHECKS = rows("Findings")
 HARMS = rows("What harms")
 OF_FITS = rows("Warnings of a fit")
 OF_POINTS = rows("Warnings of proposed points")
-OF_PRODUCTS = rows("Warnings of what is made of a fit")
+OF_PRODUCTS = rows("Warnings of products")
 REFUSALS = rows("Refusals of pictures")
 
 

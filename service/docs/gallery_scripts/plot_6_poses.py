@@ -3,7 +3,7 @@ Other poses
 ===========
 
 The fitted body in named poses: SCAPE deforms every triangle by its part's rotation and by the
-pose of its joints, so that knees and elbows bulge as bodies do. Over HTTP this is the derivation
+pose of its joints, so that knees and elbows bulge as bodies do. Over HTTP this is the product
 ``pose``.
 """
 
