@@ -67,6 +67,7 @@ export const answers = {
     "limbs-crossed": "Arms or legs cross in the picture. Check that left and right are right.",
     "low-silhouette-overlap":
       "The body covers little of the person. Check the points, check left and right, or correct the mask.",
+    "no-person": "You asked for measurements all the same. They may be nobody’s: no person is seen where the points are.",
     "other-view":
       "In one of the pictures the person is turned otherwise than you said. Check which view it is, and whether it is mirrored.",
     "person-too-small": "The person is small in this picture, and measurements suffer. Crop it to them, or use a larger one.",
