@@ -28,7 +28,7 @@ def test_a_picture_chosen_offline_is_uploaded_later(visitor: Visitor):
     page.context.set_offline(True)
     page.get_by_label("Choose another picture").set_input_files(WOMAN)
     # Nobody proposes its points now, so that the page itself unfolds where they are clicked.
-    expect(page.get_by_text("woman.jpg")).to_be_visible()
+    expect(page.get_by_text(WOMAN.name)).to_be_visible()
     expect(page.get_by_text(NO_CONNECTION)).to_be_visible()
     with page.expect_response("**/v1/images") as answer:
         page.context.set_offline(False)
