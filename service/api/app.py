@@ -47,6 +47,7 @@ from service.engine.keys import KeyRing
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk
 from service.settings import Settings
+from service.submissions.image_header import ReadHeader
 from service.version import VERSION
 
 MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
@@ -98,13 +99,15 @@ def create_app(
     blobs: BlobStore,
     disk: Disk,
     ask: Ask,
+    read_header: ReadHeader,
     keys: KeyRing,
     draining: threading.Event,
 ) -> FastAPI:
     """Build the application from what outlives it: engine, blobs, disk, keys and so on.
 
-    ``ask`` has questions answered by estimators. ``draining`` is set once the process is told to
-    stop: it is then no longer ready, and event streams end.
+    ``ask`` has questions answered by estimators, ``read_header`` headers of pictures read.
+    ``draining`` is set once the process is told to stop: it is then no longer ready, and event
+    streams end.
     """
     feed = EventFeed(engine, draining)
 
@@ -128,6 +131,7 @@ def create_app(
         metrics=metrics,
         draining=draining,
         readiness=Readiness(readiness_checks(engine, blobs, disk)),
+        read_header=read_header,
     )
     _surround(
         app,

@@ -16,6 +16,7 @@ from service.engine.images import TenantImages
 from service.engine.tenant_jobs import TenantJobs
 from service.process.data_folder import Disk
 from service.settings import Settings
+from service.submissions.image_header import ReadHeader
 
 SOLE_TENANT: Final = "default"
 """The tenant of all jobs if no keys are required."""
@@ -42,6 +43,7 @@ class Parts:
     metrics: ServiceMetrics
     draining: threading.Event
     readiness: Readiness
+    read_header: ReadHeader
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

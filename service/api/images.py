@@ -221,7 +221,9 @@ def _unknown(field: str) -> RefusedError:
 
 
 def _keep(context: ApiContext, content: bytes) -> KeptImage:
-    header = check_picture("image", content, max_pixels=context.settings.max_pixels)
+    header = check_picture(
+        "image", content, max_pixels=context.settings.max_pixels, read=context.read_header
+    )
     image_id = hashlib.sha256(content).hexdigest()
     earlier = context.images.renew(image_id)
     if earlier is not None:

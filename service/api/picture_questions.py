@@ -59,7 +59,11 @@ async def propose_points(request: Request, context: Context) -> Response:
     """
     asked, image = await _read(request, context)
     placed = await run_in_threadpool(
-        placed_question, asked, image, max_pixels=context.settings.max_pixels
+        placed_question,
+        asked,
+        image,
+        max_pixels=context.settings.max_pixels,
+        read=context.read_header,
     )
     if not placed.points and not detector_is_installed(context.settings.detector_dir):
         raise ProblemError(no_detector())

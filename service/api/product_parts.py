@@ -14,6 +14,7 @@ from fitter.applications.bvh import MAX_BYTES
 from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
 from service.jobs.inputs import CHART, CLIP, TEXTURE
+from service.submissions.image_header import ReadHeader
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 
@@ -22,19 +23,18 @@ from service.submissions.submission import check_picture
 class FormPart:
     """A file that may come along with a request, as a part of its form.
 
-    ``check`` is given the file, what is asked for and the most pixels a picture may have. It
-    returns the file's media type; of what cannot be used it raises
+    ``check`` is given the file, what is asked for, the most pixels a picture may have, and what
+    reads its header. It returns the file's media type; of what cannot be used it raises
     :class:`service.submissions.refusal.RefusedError`.
     """
 
     description: str
     media_types: str
-    check: Callable[[bytes, AnyProductOptions, int], str]
+    check: Callable[..., str]
 
 
-def _check_motion(clip: bytes, options: AnyProductOptions, max_pixels: int) -> str:
+def _check_motion(clip: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
     """Read a BVH file: what cannot be made of it is refused now, in the same words."""
-    del max_pixels
     if len(clip) > MAX_BYTES:
         raise RefusedError(
             problem(
@@ -67,10 +67,12 @@ _BVH: Final = FormPart(
 )
 
 
-def _check_texture(texture: bytes, options: AnyProductOptions, max_pixels: int) -> str:
+def _check_texture(
+    texture: bytes, options: AnyProductOptions, *, max_pixels: int, read: ReadHeader
+) -> str:
     """Check a painted atlas by its header alone; returns its media type."""
     del options
-    header = check_picture(TEXTURE, texture, max_pixels=max_pixels)
+    header = check_picture(TEXTURE, texture, max_pixels=max_pixels, read=read)
     largest = TEXTURE_SIZES[-1]
     reason = None
     if header.width != header.height:
@@ -100,9 +102,8 @@ _ATLAS: Final = FormPart(
 )
 
 
-def _check_chart(chart: bytes, options: AnyProductOptions, max_pixels: int) -> str:
+def _check_chart(chart: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
     """Read the chart; returns its media type."""
-    del max_pixels
     if len(chart) > MAX_CHART_BYTES:
         raise RefusedError(
             problem(

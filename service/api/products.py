@@ -108,7 +108,7 @@ async def make_product(
     waits for its end. A file comes along as a part of a form, whose part `request` is the JSON:
     `curl -F 'request={"kind": "size"}' -F chart=@chart.csv .../products`.
     """
-    options, sent = await _read(request, max_pixels=context.settings.max_pixels)
+    options, sent = await _read(request, context)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
     asked = product_id(options, None if sent is None else sent.content)
@@ -167,7 +167,7 @@ class _Sent:
     media_type: str
 
 
-async def _read(request: Request, *, max_pixels: int) -> tuple[AnyProductOptions, _Sent | None]:
+async def _read(request: Request, context: ApiContext) -> tuple[AnyProductOptions, _Sent | None]:
     """Read the request: JSON, or a form with it and a file."""
     if media_type(request) == JSON:
         text, parts = await read_json_text(request), {}
@@ -182,11 +182,11 @@ async def _read(request: Request, *, max_pixels: int) -> tuple[AnyProductOptions
             f"{' or '.join(map(repr, FORM_PARTS))}.",
             accepted=f"{JSON}, {MULTIPART}",
         )
-    return options, await run_in_threadpool(_checked, options, parts, max_pixels)
+    return options, await run_in_threadpool(_checked, options, parts, context)
 
 
 def _checked(
-    options: AnyProductOptions, parts: Mapping[str, bytes], max_pixels: int
+    options: AnyProductOptions, parts: Mapping[str, bytes], context: ApiContext
 ) -> _Sent | None:
     """Check the part that came along, beside the event loop."""
     taken = options.part
@@ -212,7 +212,9 @@ def _checked(
                 )
             )
         return None
-    kind = FORM_PARTS[taken].check(parts[taken], options, max_pixels)
+    kind = FORM_PARTS[taken].check(
+        parts[taken], options, max_pixels=context.settings.max_pixels, read=context.read_header
+    )
     return _Sent(name=taken, content=parts[taken], media_type=kind)
 
 

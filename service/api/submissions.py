@@ -197,7 +197,9 @@ def _uploaded(context: ApiContext, asked: FitRequest) -> tuple[SentPicture[bytes
 def _checked(
     context: ApiContext, asked: FitRequest, sent: Sequence[SentPicture[bytes]]
 ) -> CheckedSubmission:
-    checked = check_submission(asked, sent, max_pixels=context.settings.max_pixels)
+    checked = check_submission(
+        asked, sent, max_pixels=context.settings.max_pixels, read=context.read_header
+    )
     check_webhook(asked.webhook, context.settings)
     check_detector(asked, context.settings.detector_dir)
     return checked

@@ -17,6 +17,7 @@ from service.engine.dbos_jobs import JobEngine
 from service.engine.keys import KeyRing
 from service.engine.notices import NoticeRunner
 from service.engine.storage_identity import take_storage
+from service.numerics.header_lane import header_lane
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import open_disk
 from service.settings import Settings
@@ -64,6 +65,7 @@ def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
         blobs=blobs,
         disk=open_disk(settings),
         ask=ask,
+        read_header=header_lane(settings),
         keys=KeyRing(database),
         draining=draining,
     )

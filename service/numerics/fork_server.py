@@ -170,7 +170,8 @@ class ForkServer:
         self, target: Callable[..., None], arguments: tuple[object, ...]
     ) -> ForkServerProcess:
         while True:
-            process = self._context.Process(target=target, args=arguments)
+            # Ended with this process, which would wait for them otherwise.
+            process = self._context.Process(target=target, args=arguments, daemon=True)
             try:
                 process.start()
             except (EOFError, OSError) as error:

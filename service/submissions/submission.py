@@ -13,13 +13,14 @@ from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point, PointsFormat
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
-from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY, decodes_heif
+from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY
 from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
 from service.submissions.image_header import (
-    HEIC,
     DamagedImageError,
     ImageHeader,
+    ReadHeader,
+    UndecodedHeicError,
     UnknownImageError,
     read_image_header,
 )
@@ -46,7 +47,11 @@ class CheckedSubmission:
 
 
 def check_submission(
-    asked: FitRequest, sent: Sequence[SentPicture[bytes]], *, max_pixels: int
+    asked: FitRequest,
+    sent: Sequence[SentPicture[bytes]],
+    *,
+    max_pixels: int,
+    read: ReadHeader = read_image_header,
 ) -> CheckedSubmission:
     """Check a request against its encoded pictures.
 
@@ -54,6 +59,8 @@ def check_submission(
     ----------
     max_pixels
         The largest picture accepted.
+    read
+        Reads the header of a picture.
 
     Raises
     ------
@@ -72,10 +79,10 @@ def check_submission(
     points, files = [], []
     for number, (view, each) in enumerate(zip(asked.views, sent, strict=True)):
         with of_view(number):
-            header = check_picture(IMAGE, each.image, max_pixels=max_pixels)
+            header = check_picture(IMAGE, each.image, max_pixels=max_pixels, read=read)
             mask = None
             if each.mask is not None:
-                mask_header = check_picture(MASK, each.mask, max_pixels=max_pixels)
+                mask_header = check_picture(MASK, each.mask, max_pixels=max_pixels, read=read)
                 _check_same_size(header, mask_header)
                 mask = SentFile(content=each.mask, media_type=mask_header.media_type)
             points.append(_points(view, header))
@@ -91,7 +98,9 @@ def _points(view: ViewRequest, picture: ImageHeader) -> dict[PointName, Point]:
     return check(view.given_points, view.format, width=picture.width, height=picture.height)
 
 
-def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:
+def check_picture(
+    field: str, content: bytes, *, max_pixels: int, read: ReadHeader = read_image_header
+) -> ImageHeader:
     """Check an encoded picture by its header alone; nothing is decoded.
 
     Raises
@@ -110,7 +119,7 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
             )
         )
     try:
-        header = read_image_header(content)
+        header = read(content)
     except UnknownImageError as error:
         raise refused(
             FieldProblem(
@@ -119,6 +128,12 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
                 reason=f"The upload is not a {ACCEPTED_KINDS} file.",
                 remedy=f"Send a {ACCEPTED_KINDS} file.",
             ),
+            slug="unsupported-media-type",
+        ) from error
+    except UndecodedHeicError as error:
+        # Of this machine alone: a fit fails with this code where its worker has no decoder.
+        raise refused(
+            FieldProblem(field=field, code=NOT_INSTALLED_CODE, reason=NOT_INSTALLED, remedy=REMEDY),
             slug="unsupported-media-type",
         ) from error
     except DamagedImageError as error:
@@ -130,8 +145,6 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
                 remedy="Send the whole file, or save the picture anew.",
             )
         ) from error
-    if header.media_type == HEIC:
-        _check_heic(field)
     if header.animated:
         raise refused(
             FieldProblem(
@@ -171,7 +184,9 @@ def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
         )
 
 
-def placed_question(asked: PointsRequest, image: bytes, *, max_pixels: int) -> PointsRequest:
+def placed_question(
+    asked: PointsRequest, image: bytes, *, max_pixels: int, read: ReadHeader = read_image_header
+) -> PointsRequest:
     """The request with named points, which lie in the picture; that is not decoded.
 
     Raises
@@ -179,25 +194,6 @@ def placed_question(asked: PointsRequest, image: bytes, *, max_pixels: int) -> P
     RefusedError
         As :func:`check_picture` and :func:`service.submissions.point_rules.placed_points`.
     """
-    header = check_picture("image", image, max_pixels=max_pixels)
+    header = check_picture("image", image, max_pixels=max_pixels, read=read)
     points = placed_points(asked.points, asked.format, width=header.width, height=header.height)
     return asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
-
-
-def _check_heic(field: str) -> None:
-    """Refuse a HEIC picture if its decoder is not installed.
-
-    Only this machine is checked. Workers may run elsewhere with the same settings: if one of them
-    lacks the decoder, its fit fails with the same code.
-
-    Raises
-    ------
-    RefusedError
-        ``heic-not-installed``.
-    """
-    if decodes_heif():
-        return
-    raise refused(
-        FieldProblem(field=field, code=NOT_INSTALLED_CODE, reason=NOT_INSTALLED, remedy=REMEDY),
-        slug="unsupported-media-type",
-    )

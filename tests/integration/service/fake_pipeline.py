@@ -46,10 +46,13 @@ UNNOTICED_WEIGHT_KG = 34.0
 def scripted_image(
     script: dict[str, object] | None = None, *, width: int = 640, height: int = 480
 ) -> bytes:
-    """A PNG as far as its header goes, followed by what the pipeline is to do."""
+    """A PNG up to where its pixels would begin, followed by what the pipeline is to do."""
     header = b"IHDR" + struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunk = struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
-    return b"\x89PNG\r\n\x1a\n" + chunk + SCRIPT_MARK + json.dumps(script or {}).encode()
+    chunks = b"".join(
+        struct.pack(">I", len(each) - 4) + each + struct.pack(">I", zlib.crc32(each))
+        for each in (header, b"IDAT")
+    )
+    return b"\x89PNG\r\n\x1a\n" + chunks + SCRIPT_MARK + json.dumps(script or {}).encode()
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
