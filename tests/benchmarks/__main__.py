@@ -55,8 +55,8 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const=BASELINE,
         metavar="REVISION",
-        help="instead, compare fits, uploads and scans with another revision, or the checkout in a "
-        "folder, in turns (given no other: that of the goals)",
+        help="instead, compare fits of one picture and of several, and uploads, with another "
+        "revision, or the checkout in a folder, in turns (given no other: that of the goals)",
     )
     parser.add_argument("--fits", type=int, help=f"fits of each part (default: {counts})")
     return parser

@@ -15,7 +15,7 @@ from tests.benchmarks.checkouts import HERE, NoCheckoutError, checkout_of
 ROUNDS = 3
 PROBE = Path(__file__).with_name("probe.py")
 
-FITS = {"fits": 7, "uploads": 3, "scans": 3}
+FITS = {"fits": 7, "uploads": 3, "several": 3}
 """What is compared, see :mod:`tests.benchmarks.probe`, and over how many fits a round."""
 
 

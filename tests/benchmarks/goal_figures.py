@@ -16,7 +16,7 @@ PROCESSES = "SES fits a second, two processes over one"
 
 SERVICES = 2
 PROBED = {"fits": 5, "uploads": 3}
-SCANS = 3
+SEVERAL = 3
 SMALL_FITS = 60
 """In a row: the first of them is its process's first, and what that costs is shared by all."""
 DEMOS = 3
@@ -57,10 +57,10 @@ def of_this_checkout() -> Figures:
     """Shares of something else that this checkout takes, and percent."""
     from tests.benchmarks import against, overhead, simplex, throughput
 
-    scans = against.figures(against.HERE, "scans", SCANS)
+    several = against.figures(against.HERE, "several", SEVERAL)
     rates = throughput.measured(FITS_A_PROCESS)
     one, *_, most = (rates[processes] for processes in sorted(rates))
-    return {name: [share] for name, share in scans.items()} | {
+    return {name: [share] for name, share in several.items()} | {
         OWN_COST: [100.0 * (1.0 - each.served_share) for each in overhead.measured(SMALL_FITS)],
         SIMPLEX: [each.times_slower for each in simplex.measured(SIMPLEX_PICTURES)],
         PROCESSES: [most / one],

@@ -17,6 +17,7 @@ from tests.submissions import Submission, small_submissions
 
 ROUNDS = 3
 PICTURES = 4
+MAX_PIXELS = 10**7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,7 +128,7 @@ def _used(deployment: Deployment) -> list[float]:
 def _loop(answer: Connection) -> None:
     from api_schemas.fit import FitRequest
     from service.jobs.inputs import SentPicture
-    from service.submissions.submission import check_fit
+    from service.submissions.submission import check_submission
     from service.worker import pipeline
     from service.worker.files import with_result_document
     from service.worker.pipeline_port import PipelineInput
@@ -135,16 +136,16 @@ def _loop(answer: Connection) -> None:
     while submissions := answer.recv():
         used, began = time.process_time(), time.monotonic()
         for each in submissions:
-            checked = check_fit(
-                request=each.request.encode(), image=each.image, mask=None, max_pixels=10**7
-            )
-            options = FitRequest.model_validate_json(checked.options.model_dump_json())
+            asked = FitRequest.model_validate_json(each.request)
+            pictures = (SentPicture(each.image, None),)
+            checked = check_submission(asked, pictures, max_pixels=MAX_PIXELS)
             output = pipeline.run(
                 PipelineInput(
-                    options=options,
-                    pictures=(SentPicture(each.image, None),),
-                    max_pixels=10**7,
+                    request=checked.request,
+                    pictures=pictures,
+                    max_pixels=MAX_PIXELS,
                     models=None,
+                    detector=None,
                 ),
                 lambda _: None,
             )

@@ -55,10 +55,10 @@ def uploads(count: int) -> dict[str, float]:
     return {"upload of 12 megapixels to result and files": float(np.median(taken))}
 
 
-def scans(count: int) -> dict[str, float]:
+def several(count: int) -> dict[str, float]:
     """Processor time of front and side as a share of one picture's."""
     warm_up()
-    shares = [scan_share(requests_of(pair)) for pair in list(PHONE_PAIRS.values())[:count]]
+    shares = [several_share(requests_of(pair)) for pair in list(PHONE_PAIRS.values())[:count]]
     return {"front and side over a single fit": float(np.median(shares))}
 
 
@@ -70,8 +70,8 @@ def requests_of(pair: PhonePair) -> list[FitRequest]:
     ]
 
 
-def scan_share(requests: Sequence[FitRequest]) -> float:
-    """Processor time of a scan over that of a fit to one of its pictures, on average."""
+def several_share(requests: Sequence[FitRequest]) -> float:
+    """Processor time of a fit of all pictures over that of one of them, on average."""
     _, both = timed(partial(fit, together(*requests)))
     single = [timed_fit(each).whole.processor_s for each in requests]
     return both.processor_s / float(np.mean(single))
@@ -88,7 +88,7 @@ def _warm_up_with_files() -> None:
 PROBES: Mapping[str, Callable[[int], dict[str, float]]] = {
     "fits": fits,
     "uploads": uploads,
-    "scans": scans,
+    "several": several,
 }
 
 if __name__ == "__main__":

@@ -100,7 +100,7 @@ def test_what_only_the_fit_can_find_wrong_ends_as_a_problem(
     client, image, mask, points, field, code
 ):
     files = {"image": image} | ({} if mask is None else {"mask": mask})
-    request = {"gender": "female", "height_m": 1.7, "points": points, "cues": "SE"}
+    request = {"gender": "female", "height_m": 1.7, "views": [{"points": points}], "cues": "SE"}
     job = ended_job(
         client, client.post("/v1/fits", files=files, data={"request": json.dumps(request)})
     )

@@ -1,4 +1,4 @@
-"""Clients generated from the contract fit and scan the samples: type-checked, then run for real."""
+"""Clients generated from the contract fit the samples: type-checked, then run for real."""
 
 import json
 import os
@@ -16,8 +16,8 @@ from tests.npm_packages import installed
 
 CLIENTS = REPOSITORY / "tests" / "clients"
 DEMO = REPOSITORY / "service" / "demo_data"
-SAMPLE = [str(DEMO / name) for name in ("sample.jpg", "request.json")]
-PAIR = [str(DEMO / name) for name in ("front.jpg", "side.jpg", "scan.json")]
+SAMPLE = [str(DEMO / name) for name in ("request.json", "sample.jpg")]
+PAIR = [str(DEMO / name) for name in ("front_and_side.json", "front.jpg", "side.jpg")]
 TOOLS = Path(sys.executable).parent
 
 
@@ -34,27 +34,25 @@ def run(*command: str | Path, cwd: Path, **variables: str) -> str:
     return done.stdout
 
 
-def check(output: str, service: httpx.Client, before: set[str]) -> None:
+def check(output: str, request: str, *, views: list[str | None]) -> None:
     """Check what a client found both ways, and that it erased what it sent."""
     found = json.loads(output.splitlines()[-1])
-    request = json.loads(Path(SAMPLE[1]).read_text())
+    asked = json.loads(Path(request).read_text())
     as_form, as_json = found["measurements"]
-    assert as_form["stature"] == pytest.approx(100 * request["height_m"], abs=0.01)
+    assert as_form["stature"] == pytest.approx(100 * asked["height_m"], abs=0.01)
     assert 40 < as_form["weight"] < 150
     assert as_json == pytest.approx(as_form, rel=1e-6)
-    assert (found["glb"], found["ends"], found["erased"]) == ("glTF", 1, [204, 204, 204])
+    assert (found["views"], found["glb"], found["ends"]) == (views, "glTF", 1)
+    assert found["erased"] == [204] * (2 + len(views))
+
+
+def check_both(service: httpx.Client, *client: str | Path, cwd: Path) -> None:
+    """Have a client fit the sample and the pair; nothing is left of them."""
+    before = fits(service)
+    fitted, measured = (run(*client, service.base_url, *each, cwd=cwd) for each in (SAMPLE, PAIR))
+    check(fitted, SAMPLE[0], views=[None])
+    check(measured, PAIR[0], views=["front", "side"])
     assert fits(service) == before
-
-
-def check_scan(output: str) -> None:
-    """Check what a client found of the sample pair both ways, and that it erased what it sent."""
-    found = json.loads(output.splitlines()[-1])
-    request = json.loads(Path(PAIR[-1]).read_text())
-    as_form, as_json = found["measurements"]
-    assert as_form["stature"] == pytest.approx(100 * request["height_m"], abs=0.01)
-    assert as_json == pytest.approx(as_form, rel=1e-6)
-    assert (found["views"], found["glb"], found["ends"]) == (["front", "side"], "glTF", 1)
-    assert found["erased"] == [204] * 4
 
 
 def test_a_generated_python_client_fits_the_sample_and_measures_the_pair(
@@ -67,13 +65,10 @@ def test_a_generated_python_client_fits_the_sample_and_measures_the_pair(
         cwd=tmp_path,
     )
     assert "Warning" not in written, written
-    for name in ("fit.py", "scan.py"):
-        shutil.copy(CLIENTS / "python" / name, tmp_path)
+    shutil.copy(CLIENTS / "python" / "fit.py", tmp_path)
     # The use of what was generated; the generator's own code would not pass.
-    run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", "scan.py", cwd=tmp_path)
-    before = fits(service)
-    check(run(sys.executable, "fit.py", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
-    check_scan(run(sys.executable, "scan.py", service.base_url, *PAIR, cwd=tmp_path))
+    run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", cwd=tmp_path)
+    check_both(service, sys.executable, "fit.py", cwd=tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -84,15 +79,13 @@ def node_modules() -> Path:
 def test_a_generated_typescript_client_fits_the_sample_and_measures_the_pair(
     service: httpx.Client, node_modules: Path, tmp_path: Path
 ):
-    for name in ("fit.ts", "scan.ts", "tsconfig.json", "package.json"):
+    for name in ("fit.ts", "tsconfig.json", "package.json"):
         shutil.copy(CLIENTS / "typescript" / name, tmp_path)
     (tmp_path / "node_modules").symlink_to(node_modules)
     tools = node_modules / ".bin"
     run(tools / "openapi-typescript", EXPORTED, "--output", "schema.d.ts", cwd=tmp_path)
     run(tools / "tsc", cwd=tmp_path)
-    before = fits(service)
-    check(run("node", "built/fit.js", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
-    check_scan(run("node", "built/scan.js", service.base_url, *PAIR, cwd=tmp_path))
+    check_both(service, "node", "built/fit.js", cwd=tmp_path)
 
 
 def test_a_client_of_a_generator_that_knows_one_content_type_uploads_the_picture_first(
@@ -105,6 +98,6 @@ def test_a_client_of_a_generator_that_knows_one_content_type_uploads_the_picture
     (tmp_path / "node_modules").symlink_to(modules)
     run(modules / ".bin" / "openapi-ts", "-i", EXPORTED, "-o", "client", cwd=tmp_path)
     run(modules / ".bin" / "tsc", cwd=tmp_path)
-    found = json.loads(run("node", "built/fit.js", service.base_url, SAMPLE[0], cwd=tmp_path))
+    found = json.loads(run("node", "built/fit.js", service.base_url, SAMPLE[1], cwd=tmp_path))
     assert 40 < found["measurements"]["weight"] < 150
     assert found["erased"] == [204, 204]

@@ -13,14 +13,15 @@ from service.demo_data.sample import load_sample
 from tests.e2e.service import FIT_WITHIN_S, REPOSITORY
 
 PROMISED = {
-    "body_posed.glb",
     "body_canonical.glb",
-    "segmentation.png",
-    "trimap.png",
-    "overlay.png",
-    "albedo.png",
-    "shading.png",
+    "body.png",
     "result.json",
+    "views/0/body_posed.glb",
+    "views/0/segmentation.png",
+    "views/0/trimap.png",
+    "views/0/overlay.png",
+    "views/0/albedo.png",
+    "views/0/shading.png",
 }
 
 
@@ -48,9 +49,9 @@ def result(demo: tuple[str, Path]) -> FitResult:
 
 def test_the_promised_files_lie_in_the_output_folder(demo: tuple[str, Path]):
     _, output = demo
-    assert {path.name for path in output.iterdir()} >= PROMISED
-    assert (output / "body_posed.glb").read_bytes()[:4] == b"glTF"
-    assert (output / "overlay.png").read_bytes()[:4] == b"\x89PNG"
+    assert {str(path.relative_to(output)) for path in output.rglob("*")} >= PROMISED
+    assert (output / "views/0/body_posed.glb").read_bytes()[:4] == b"glTF"
+    assert (output / "views/0/overlay.png").read_bytes()[:4] == b"\x89PNG"
 
 
 def test_every_true_measurement_is_printed_beside_what_was_found(
@@ -78,7 +79,8 @@ def test_the_bars_name_every_stage_that_took_time(demo: tuple[str, Path], result
 def test_the_demo_finds_the_person_it_was_rendered_from(result: FitResult):
     truth = load_sample().truth
     found = {measurement.name: measurement.value for measurement in result.measurements}
-    assert result.silhouette_overlap > 0.9
+    (view,) = result.views
+    assert view.silhouette_overlap > 0.9
     assert found["stature"] == pytest.approx(truth["stature"], abs=0.2)
     for girth in ("chest_girth", "waist_girth_navel", "hip_girth"):
         assert found[girth] == pytest.approx(truth[girth], rel=0.1)
@@ -86,5 +88,5 @@ def test_the_demo_finds_the_person_it_was_rendered_from(result: FitResult):
 
 def test_no_point_and_no_picture_is_in_the_log(demo: tuple[str, Path]):
     log = (demo[1] / "service.log").read_text()
-    points = json.loads(load_sample().request)["points"]
-    assert not any(str(point["x"]) in log for point in points.values())
+    (view,) = json.loads(load_sample().request)["views"]
+    assert not any(str(point["x"]) in log for point in view["points"].values())

@@ -18,6 +18,7 @@ def test_bodies_poses_and_contradictions_are_answered_at_once(
     client, before = service, fits(service)
     sample = load_sample()
     subject = json.loads(sample.request)
+    (view,) = subject.pop("views")
     known = {"gender": "female", "height_m": 1.68, "weight_kg": 64.5}
     estimate = client.post("/v1/bodies", json=known).raise_for_status().json()
     weight = next(each for each in estimate["measurements"] if each["name"] == "weight")
@@ -30,12 +31,12 @@ def test_bodies_poses_and_contradictions_are_answered_at_once(
 
     picture = {"image": ("sample.jpg", sample.image, "image/jpeg")}
     image = client.post("/v1/images", files=picture).raise_for_status().json()
-    asked = subject | {"image_id": image["id"]}
-    pose = client.post("/v1/initial-poses", json=asked).raise_for_status().json()
+    seen = view | {"image_id": image["id"]}
+    pose = client.post("/v1/initial-poses", json=subject | seen).raise_for_status().json()
     assert pose["camera"]["width"] == image["width"]
     assert pose["focal_length_source"] == "exif_35mm_equivalent"
 
-    refused = client.post("/v1/fits", json=asked | STOUT)
+    refused = client.post("/v1/fits", json=subject | {"views": [seen]} | STOUT)
     assert refused.status_code == httpx.codes.UNPROCESSABLE_ENTITY
     assert refused.json()["code"] == "contradictory-measurements"
     assert fits(client) == before

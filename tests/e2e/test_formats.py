@@ -17,7 +17,7 @@ from tests.e2e.service import REPOSITORY, ended_job
 
 SAMPLE = REPOSITORY / "service" / "demo_data"
 MICROMETRE = 1e-6
-BODIES = ("body_posed", "body_canonical", "body_posed_se", "body_canonical_se")
+BODIES = ("views/0/body_posed", "body_canonical", "views/0/body_posed_se", "body_canonical_se")
 
 
 @pytest.fixture(scope="module")
@@ -80,10 +80,12 @@ def test_measurements_are_the_results_with_their_units(client: httpx.Client, fit
 def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
     client: httpx.Client, fit, tmp_path: Path
 ):
-    posed, triangles = mesh_of(client.get(f"{fit['links']['self']}/files/body_posed.glb").content)
+    posed, triangles = mesh_of(
+        client.get(f"{fit['links']['self']}/files/views/0/body_posed.glb").content
+    )
     asked = {"kind": "texture", "colours": "picture", "size": 512}
     job = ended_job(client, client.post(fit["links"]["products"], json=asked))
-    for name in ("body_textured.obj", "body_textured.mtl", "texture.png", "body_textured.usdz"):
+    for name in ("body_textured.obj", "body_textured.mtl", "texture.png"):
         answer = client.get(f"{job['links']['self']}/files/{name}").raise_for_status()
         (tmp_path / name).write_bytes(answer.content)
     rows = (tmp_path / "body_textured.obj").read_text().splitlines()
@@ -111,16 +113,16 @@ def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client,
 def test_the_command_line_writes_the_formats_it_is_asked_for(tmp_path: Path):
     subprocess.run(
         [
-            *(sys.executable, "-m", "service.cli", "fit", str(SAMPLE / "sample.jpg")),
-            *("--points", str(SAMPLE / "request.json"), "--output", str(tmp_path)),
-            *("--cues", "SE", "--formats", "obj,ply"),
+            *(sys.executable, "-m", "service.cli", "fit"),
+            *(str(SAMPLE / "request.json"), str(SAMPLE / "sample.jpg")),
+            *("--output", str(tmp_path), "--format", "obj", "--format", "ply"),
         ],
         cwd=REPOSITORY,
         check=True,
         capture_output=True,
     )
-    written = {path.name for path in tmp_path.iterdir()}
-    assert {"body_posed.obj", "body_canonical.ply", "measurements.csv"} <= written
+    written = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*")}
+    assert {"views/0/body_posed.obj", "body_canonical.ply", "measurements.csv"} <= written
     assert not any(name.endswith(".stl") for name in written)
     vertices, _ = mesh_of((tmp_path / "body_canonical.glb").read_bytes())
     assert same(

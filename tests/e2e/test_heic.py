@@ -31,7 +31,7 @@ def fitted(client: httpx.Client, image: bytes) -> dict:
 
 def waist(client: httpx.Client, job: dict) -> float:
     result = client.get(job["links"]["result"]).raise_for_status().json()
-    assert result["focal_length_source"] == "exif_35mm_equivalent"
+    assert result["views"][0]["focal_length_source"] == "exif_35mm_equivalent"
     return next(
         each["value"] for each in result["measurements"] if each["name"] == "waist_girth_navel"
     )

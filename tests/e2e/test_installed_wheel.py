@@ -115,13 +115,13 @@ def test_the_demo_and_a_fit_without_a_service_leave_their_files(
     demo = installation.run(installation.maquette, "demo", cwd=tmp_path)
     assert demo.returncode == 0, demo.stdout + demo.stderr
     samples = installation.packages / "service" / "demo_data"
-    given = [samples / "sample.jpg", "--points", samples / "request.json"]
+    given = [samples / "request.json", samples / "sample.jpg"]
     fit = installation.run(installation.maquette, "fit", *given, cwd=tmp_path)
     assert fit.returncode == 0, fit.stdout + fit.stderr
     assert {path.name for path in tmp_path.iterdir()} == {"demo-output", "maquette-fit"}
     for folder in tmp_path.iterdir():
         FitResult.model_validate_json((folder / "result.json").read_bytes())
-        assert (folder / "body_posed.glb").exists()
+        assert (folder / "views" / "0" / "body_posed.glb").exists()
 
 
 def test_other_commands_need_nothing_more(installation: Installation, tmp_path: Path):
@@ -171,8 +171,7 @@ def test_what_somebody_else_installed_works_for_a_user_without_a_home(
     # Told only once all compiled code is loaded, and before any of it is compiled.
     with read_only(installation.packages), read_only(tmp_path / "home"):
         done = installation.run(
-            *(*confined, installation.maquette, "fit"),
-            *(picture, "--points", samples / "request.json"),
+            *(*confined, installation.maquette, "fit", samples / "request.json", picture),
             cwd=tmp_path,
             HOME=str(tmp_path / "home"),
             XDG_CACHE_HOME=str(tmp_path / "home" / "caches"),

@@ -23,7 +23,7 @@ def fit(service: httpx.Client) -> tuple[dict, dict[str, bytes]]:
     request = {
         "gender": described["gender"],
         "height_m": described["height_m"],
-        "points": described["points"],
+        "views": [{"points": described["points"]}],
     }
     job = ended_job(
         service,
@@ -44,7 +44,7 @@ def fit(service: httpx.Client) -> tuple[dict, dict[str, bytes]]:
 
 def posed_mesh(files: dict[str, bytes]) -> trimesh.Trimesh:
     scene = trimesh.load(
-        trimesh.util.wrap_as_stream(files["body_posed.glb"]), file_type="glb", process=False
+        trimesh.util.wrap_as_stream(files["views/0/body_posed.glb"]), file_type="glb", process=False
     )
     return next(iter(scene.geometry.values()))
 
@@ -52,8 +52,9 @@ def posed_mesh(files: dict[str, bytes]) -> trimesh.Trimesh:
 def test_the_body_covers_the_painted_man(fit):
     result, _ = fit
     # His hair, a tenth of his outline, is the person's to a detector and no part of the body.
-    assert result["silhouette_overlap"] > 0.85
-    assert result["outcome"] == "converged"
+    (view,) = result["views"]
+    assert view["silhouette_overlap"] > 0.85
+    assert view["outcome"] == "converged"
 
 
 def test_the_body_stands_upright(fit):
@@ -67,7 +68,7 @@ def test_the_body_stands_upright(fit):
 
 def test_the_raised_forearm_comes_toward_the_viewer(fit):
     result, _ = fit
-    facing = {limb["limb"]: limb["facing"] for limb in result["limb_facing"]}
+    facing = {limb["limb"]: limb["facing"] for limb in result["views"][0]["limb_facing"]}
     assert facing["left_forearm"] == "toward"
 
 
@@ -83,26 +84,27 @@ def test_measurements_are_those_of_a_man(fit):
 
 def test_what_was_assumed_is_said(fit):
     result, _ = fit
-    assert "focal_length_35mm" in {a["quantity"] for a in result["assumptions"]}
+    assert "focal_length_35mm" in {a["quantity"] for a in result["views"][0]["assumptions"]}
 
 
 def test_the_light_comes_from_the_upper_left_as_painted(fit):
     result, _ = fit
-    assert result["light"]["azimuth_deg"] < 0.0
-    assert result["light"]["elevation_deg"] > 0.0
+    light = result["views"][0]["light"]
+    assert light["azimuth_deg"] < 0.0
+    assert light["elevation_deg"] > 0.0
 
 
 def test_every_promised_file_is_there(fit):
     _, files = fit
     assert set(files) >= {
-        "body_posed.glb",
         "body_canonical.glb",
-        "segmentation.png",
-        "trimap.png",
-        "overlay.png",
-        "albedo.png",
-        "shading.png",
         "result.json",
+        "views/0/body_posed.glb",
+        "views/0/segmentation.png",
+        "views/0/trimap.png",
+        "views/0/overlay.png",
+        "views/0/albedo.png",
+        "views/0/shading.png",
     }
 
 

@@ -19,9 +19,9 @@ def picture(content: bytes) -> dict[str, tuple[str, bytes, str]]:
     return {"image": ("picture", content, "application/octet-stream")}
 
 
-def fitted(client: httpx.Client, image: bytes, **changes: object) -> dict:
-    """The result of a fit of silhouette and edges."""
-    request = json.dumps(PERSON | {"cues": "SE"} | changes)
+def fitted(client: httpx.Client, image: bytes, **view: object) -> dict:
+    """The result of a fit of silhouette and edges, with what is said of the picture."""
+    request = json.dumps(PERSON | {"cues": "SE", "views": [view]})
     answer = client.post("/v1/fits", files=picture(image), data={"request": request})
     job = ended_job(client, answer)
     assert job["state"] == "succeeded", job["problem"]
@@ -30,7 +30,8 @@ def fitted(client: httpx.Client, image: bytes, **changes: object) -> dict:
 
 def assumed(result: dict) -> list[str]:
     """Names of the points that the result says were proposed."""
-    said = [each["value"] for each in result["assumptions"] if each["quantity"] == "points"]
+    (view,) = result["views"]
+    said = [each["value"] for each in view["assumptions"] if each["quantity"] == "points"]
     return said[0].split(", ") if said else []
 
 
@@ -48,7 +49,8 @@ def test_proposed_points_lie_near_the_clicks_and_the_mask_has_the_picture_s_size
         "/v1/points", files=picture(sample.image), data={"request": '{"mask": true}'}
     )
     found = answer.raise_for_status().json()
-    clicked = json.loads(sample.request)["points"]
+    (view,) = json.loads(sample.request)["views"]
+    clicked = view["points"]
     both = found["points"].keys() & clicked.keys()
     assert len(both) >= 16
     off = [
@@ -74,8 +76,9 @@ def test_a_fit_of_proposed_points_and_one_that_proposes_them_itself_agree(client
     auto = fitted(client, sample.image, points="auto")
     assert set(assumed(sent)) == set(assumed(auto)) == found["points"].keys()
     for result in (sent, auto):
-        assert result["outcome"] == "converged"
-        assert result["silhouette_overlap"] > 0.93
+        (view,) = result["views"]
+        assert view["outcome"] == "converged"
+        assert view["silhouette_overlap"] > 0.93
         measured = {each["name"]: each["value"] for each in result["measurements"]}
         for name in ("waist_girth_navel", "hip_girth"):
             assert measured[name] == pytest.approx(sample.truth[name], rel=0.08)
@@ -83,7 +86,8 @@ def test_a_fit_of_proposed_points_and_one_that_proposes_them_itself_agree(client
 
 def test_one_click_says_who_is_meant(client: httpx.Client):
     sample = load_sample()
-    knee = json.loads(sample.request)["points"]["left_knee"]
+    (view,) = json.loads(sample.request)["views"]
+    knee = view["points"]["left_knee"]
     result = fitted(client, sample.image, points={"left_knee": knee}, complete_points=True)
     assert "left_knee" not in assumed(result)
     assert "right_knee" in assumed(result)
@@ -98,11 +102,11 @@ def test_a_fit_of_a_picture_of_nobody_says_so(client: httpx.Client):
     answer = client.post(
         "/v1/fits",
         files=picture(encoded.getvalue()),
-        data={"request": json.dumps(PERSON | {"points": "auto"})},
+        data={"request": json.dumps(PERSON)},
     )
     problem = ended_job(client, answer)["problem"]
     assert problem["type"] == "/problems/unusable-input"
-    assert (problem["field"], problem["code"]) == ("points", "person-not-found")
+    assert (problem["field"], problem["code"]) == ("views.0.points", "person-not-found")
 
 
 def test_a_damaged_picture_is_told(client: httpx.Client):

@@ -8,13 +8,13 @@ client.setConfig({ baseUrl: service });
 const always = { throwOnError: true } as const;
 
 const { data: image } = await uploadImage({ ...always, body: { image: await openAsBlob(picture) } });
-let { data: job } = await submitFit({ ...always, body: { image_id: image.id, gender: "male", height_m: 1.804, points: "auto" } });
-const path = { fit_id: job.id };
-while (job.state === "queued" || job.state === "running") {
+let { data: fit } = await submitFit({ ...always, body: { gender: "male", height_m: 1.804, views: [{ image_id: image.id }] } });
+const path = { fit_id: fit.id };
+while (fit.state === "queued" || fit.state === "running") {
   await new Promise((resume) => setTimeout(resume, 300));
-  ({ data: job } = await getFit({ ...always, path }));
+  ({ data: fit } = await getFit({ ...always, path }));
 }
-if (job.state !== "succeeded") throw new Error(job.problem?.detail ?? job.state);
+if (fit.state !== "succeeded") throw new Error(fit.problem?.detail ?? fit.state);
 const { data } = await getFitResult({ ...always, path });
 const erased = [await eraseFit({ ...always, path }), await eraseImage({ ...always, path: { image_id: image.id } })];
 console.log(

@@ -1,23 +1,30 @@
-"""Fit the sample through the generated client and print what came of it as JSON.
+"""Fit pictures through the generated client and print what came of it as JSON.
 
-``python fit.py SERVICE PICTURE REQUEST``, once with the picture in the form, once uploaded before.
+``python fit.py SERVICE REQUEST PICTURE...``, once with the pictures in the form, once uploaded
+before.
 """
 
 import io
 import json
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from maquette_client import Client
-from maquette_client.api.fits import erase_fit, follow_fit, get_fit, submit_fit
+from maquette_client.api.fits import (
+    erase_fit,
+    follow_fit,
+    get_fit,
+    get_fit_file,
+    get_fit_result,
+    submit_fit,
+)
 from maquette_client.api.images import erase_image, upload_image
-from maquette_client.api.results import get_fit_artifact, get_fit_result
 from maquette_client.models import (
-    FitOfImage,
+    Fit,
     FitRequest,
     FitResult,
-    Job,
     JobState,
     SubmitFitFilesBody,
     UploadedImage,
@@ -31,19 +38,21 @@ def picture_file(picture: Path) -> File:
     return File(payload=content, file_name=picture.name, mime_type="image/jpeg")
 
 
-def submitted_as_form(client: Client, picture: Path, request: Path) -> Job:
+def submitted_as_form(client: Client, request: Path, pictures: Sequence[Path]) -> Fit:
     asked = FitRequest.from_dict(json.loads(request.read_text()))
-    form = SubmitFitFilesBody(image=picture_file(picture), request=asked)
-    job = submit_fit.sync(client=client, body=form)
-    assert isinstance(job, Job), job
-    return job
+    files = [picture_file(each) for each in pictures]
+    fit = submit_fit.sync(client=client, body=SubmitFitFilesBody(image=files, request=asked))
+    assert isinstance(fit, Fit), fit
+    return fit
 
 
-def submitted_as_json(client: Client, image: UploadedImage, request: Path) -> Job:
-    asked = FitOfImage.from_dict({"image_id": image.id, **json.loads(request.read_text())})
-    job = submit_fit.sync(client=client, body=asked)
-    assert isinstance(job, Job), job
-    return job
+def submitted_as_json(client: Client, request: Path, images: Sequence[UploadedImage]) -> Fit:
+    asked = json.loads(request.read_text())
+    for view, image in zip(asked["views"], images, strict=True):
+        view["image_id"] = image.id
+    fit = submit_fit.sync(client=client, body=FitRequest.from_dict(asked))
+    assert isinstance(fit, Fit), fit
+    return fit
 
 
 def uploaded(client: Client, picture: Path) -> UploadedImage:
@@ -52,36 +61,39 @@ def uploaded(client: Client, picture: Path) -> UploadedImage:
     return kept
 
 
-def ended(client: Client, job: Job) -> FitResult:
-    while job.state in (JobState.QUEUED, JobState.RUNNING):
+def ended(client: Client, fit: Fit) -> FitResult:
+    while fit.state in (JobState.QUEUED, JobState.RUNNING):
         time.sleep(0.3)
-        seen = get_fit.sync(job.id, client=client)
-        assert isinstance(seen, Job), seen
-        job = seen
-    assert job.state is JobState.SUCCEEDED, job.problem
-    found = get_fit_result.sync(job.id, client=client)
+        seen = get_fit.sync(fit.id, client=client)
+        assert isinstance(seen, Fit), seen
+        fit = seen
+    assert fit.state is JobState.SUCCEEDED, fit.problem
+    found = get_fit_result.sync(fit.id, client=client)
     assert isinstance(found, FitResult), found
     return found
 
 
-def main(service: str, picture: Path, request: Path) -> None:
+def main(service: str, request: Path, pictures: Sequence[Path]) -> None:
     client = Client(base_url=service, raise_on_unexpected_status=True)
-    image = uploaded(client, picture)
-    jobs = [
-        submitted_as_form(client, picture, request),
-        submitted_as_json(client, image, request),
+    images = [uploaded(client, each) for each in pictures]
+    fits = [
+        submitted_as_form(client, request, pictures),
+        submitted_as_json(client, request, images),
     ]
-    measured = [{each.name: each.value for each in ended(client, job).measurements} for job in jobs]
-    body = get_fit_artifact.sync(jobs[0].id, "body_posed.glb", client=client)
+    results = [ended(client, fit) for fit in fits]
+    body = get_fit_file.sync(fits[0].id, "views/0/body_posed.glb", client=client)
     assert isinstance(body, File), body
-    events = follow_fit.sync(jobs[0].id, client=client)
+    events = follow_fit.sync(fits[0].id, client=client)
     assert isinstance(events, str), events
-    erased = [erase_fit.sync_detailed(job.id, client=client).status_code for job in jobs]
-    erased.append(erase_image.sync_detailed(image.id, client=client).status_code)
+    erased = [erase_fit.sync_detailed(fit.id, client=client).status_code for fit in fits]
+    erased += [erase_image.sync_detailed(each.id, client=client).status_code for each in images]
     print(
         json.dumps(
             {
-                "measurements": measured,
+                "measurements": [
+                    {each.name: each.value for each in result.measurements} for result in results
+                ],
+                "views": [view.view for view in results[0].views],
                 "glb": body.payload.read(4).decode(),
                 "ends": events.count("event: end"),
                 "erased": erased,
@@ -91,4 +103,4 @@ def main(service: str, picture: Path, request: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]))
+    main(sys.argv[1], Path(sys.argv[2]), [Path(each) for each in sys.argv[3:]])

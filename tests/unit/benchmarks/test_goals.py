@@ -28,7 +28,7 @@ PROBED = {
         "pictures and meshes, 960x1280",
     ],
     "uploads": ["upload of 12 megapixels to result and files"],
-    "scans": ["front and side over a single fit"],
+    "several": ["front and side over a single fit"],
 }
 
 
@@ -37,7 +37,7 @@ def measured(monkeypatch, tmp_path):
     """Every measurement answers at once."""
 
     def figures(checkout, probe, count):
-        if probe == "scans":
+        if probe == "several":
             return dict.fromkeys(PROBED[probe], 1.75)
         return dict.fromkeys(PROBED[probe], 4.0 if checkout == tmp_path else 2.0)
 
