@@ -25,17 +25,20 @@ from tests.e2e.page.browser import chromium
 from tests.integration.service.harness import eventually
 from tests.readme import block
 
+PICTURE = FOLDER / "front.jpg"
+"""The first of those that were fitted."""
+
 MAGENTA = (255, 0, 255)
 """No body is of this colour."""
 
 
 @pytest.fixture
 def folder(files: Path, tmp_path: Path) -> Path:
-    """What the README's commands have left, and the sample where they expect it."""
-    for name in ("body_posed.glb", "result.json"):
+    """What the README's commands leave, and the fit's first picture where they have the sample."""
+    for name in ("views/0/body_posed.glb", "result.json"):
         shutil.copy(files / "fit" / name, tmp_path)
     (tmp_path / "service" / "demo_data").mkdir(parents=True)
-    shutil.copy(FOLDER / "sample.jpg", tmp_path / "service" / "demo_data")
+    shutil.copy(PICTURE, tmp_path / "service" / "demo_data" / "sample.jpg")
     return tmp_path
 
 
@@ -50,15 +53,15 @@ def test_trimesh_draws_the_body_where_the_picture_has_it(files: Path, folder: Pa
     )
     assert done.returncode == 0, done.stderr
     drawn = np.asarray(Image.open(folder / "drawn.png"))
-    sample = np.asarray(Image.open(FOLDER / "sample.jpg").convert("RGB"))
-    check((drawn != sample).any(axis=2), files)
+    sent = np.asarray(Image.open(PICTURE).convert("RGB"))
+    check((drawn != sent).any(axis=2), files)
 
 
 def test_three_js_draws_the_body_where_the_picture_has_it(
     files: Path, folder: Path, npm_readers: Path
 ):
     (folder / "index.html").write_text(block("three"))
-    shutil.copy(FOLDER / "sample.jpg", folder)
+    shutil.copy(PICTURE, folder / "sample.jpg")
     (folder / "three").symlink_to(npm_readers / "node_modules" / "three")
     with drawn_page(folder, width=720, height=960) as page:
         # What shows through is not the body.
@@ -85,7 +88,10 @@ def check(drawn: np.ndarray, files: Path) -> None:
     evaluator = prepared_model(fitted.gender, models=None).operators.evaluator
     body = evaluator.vertices(fitted.body)
     own = render(body, evaluator.model.triangles, fitted.camera).silhouette
-    person = np.asarray(Image.open(files / "fit" / "segmentation.png").convert("L")) > 127
+    person = (
+        np.asarray(Image.open(files / "fit" / "views" / "0" / "segmentation.png").convert("L"))
+        > 127
+    )
     assert drawn.shape == own.shape == person.shape
     assert overlap(drawn, own) > 0.98
     assert overlap(drawn, person) > 0.93
