@@ -53,7 +53,7 @@ class Client:
     def result(self, job: dict[str, Any]) -> dict[str, Any]:
         """Fetch the result of a job that succeeded, and look whether its body can be fetched."""
         assert job["state"] == "succeeded", job
-        body = self.http.get(f"/v1/fits/{job['id']}/files/body_posed.glb").raise_for_status()
+        body = self.http.get(job["links"]["files"]["views/0/body_posed.glb"]).raise_for_status()
         assert body.content.startswith(b"glTF")
         return self.http.get(job["links"]["result"]).raise_for_status().json()
 
