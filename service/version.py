@@ -3,4 +3,4 @@
 It is the only place that says it; the build reads it from here (pyproject.toml).
 """
 
-VERSION = "1.0.0"
+VERSION = "2.0.0"

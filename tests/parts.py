@@ -19,7 +19,7 @@ LONGEST = (
     "e2e/test_installed_wheel.py",
     "integration/test_own_bodies.py",
     # With the folders after them, whose other files use the same services.
-    "e2e/page/test_derived.py",
+    "e2e/page/test_products.py",
     "e2e/test_readme.py",
     "e2e",
     "integration/service/test_outages.py",
@@ -36,7 +36,6 @@ LONGEST = (
     # Of `make test` and `make test-shapes`.
     "unit/fits/test_fit.py",
     "unit/optimizer/test_recovery.py",
-    "unit/training/test_measurement_figures.py",
     "unit/training/test_knee_rings.py",
     "unit/training/test_bone_centres.py",
     "unit/service/products",

@@ -95,7 +95,17 @@ def field_problems(
     names
         The fields there are, to tell which one an unknown field was meant to be.
     """
-    return tuple(_field_problem(error, whole, names) for error in errors)
+    return tuple(
+        _field_problem(error, whole, names) for error in errors if not _follows(error, errors)
+    )
+
+
+def _follows(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> bool:
+    """Whether it only follows from another: faulty items of a list do not count for its length."""
+    place = error["loc"]
+    return error["type"] == "too_short" and any(
+        len(other["loc"]) > len(place) and other["loc"][: len(place)] == place for other in errors
+    )
 
 
 def _field_problem(error: ErrorDetails, whole: str, names: Collection[str]) -> FieldProblem:

@@ -1,7 +1,4 @@
-"""Read the body models and describe them: ``python -m service.worker.model_reader [FOLDER]``.
-
-What this imports takes little time to load.
-"""
+"""Read the body models and describe them: ``python -m service.worker.model_reader [FOLDER]``."""
 
 import os
 import sys

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from fitter.export.bundle import result_files
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.progress import Progress, Stage
@@ -71,7 +72,7 @@ def timed_fit(request: FitRequest) -> TimedFit:
     ends = [*list(begins.values())[1:], end]
     model = prepared_model(result.person.gender).operators.model
     _, export = timed(
-        lambda: artifacts(result, model=model, images=[view.image for view in request.views])
+        lambda: result_files(result, model=model, images=[view.image for view in request.views])
     )
     return TimedFit(
         result=result,

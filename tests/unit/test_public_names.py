@@ -87,7 +87,8 @@ def sample() -> dict[str, object]:
     """What the examples name: the sample's picture, what was clicked and told, and its fit."""
     files = load_sample()
     asked = json.loads(files.request)
-    clicks = {name: (point["x"], point["y"]) for name, point in asked["points"].items()}
+    (view,) = asked["views"]
+    clicks = {name: (point["x"], point["y"]) for name, point in view["points"].items()}
     told = {"gender": asked["gender"], "height_m": asked["height_m"]}
     return {"picture": files.image, "clicks": clicks, **told}
 

@@ -25,8 +25,8 @@ from tests.evaluation.scene import Half
 
 REPOSITORY = Path(__file__).parents[3]
 GUIDE = REPOSITORY / "MEASURING.md"
-CAPTIONS = REPOSITORY / "service" / "page" / "src" / "messages" / "en" / "howto.ts"
-HOW_TO = REPOSITORY / "service" / "page" / "src" / "measure" / "HowTo.tsx"
+CAPTIONS = REPOSITORY / "service" / "page" / "src" / "messages" / "howto.ts"
+HOW_TO = REPOSITORY / "service" / "page" / "src" / "start" / "HowTo.tsx"
 
 
 @pytest.fixture(scope="module")

@@ -2,23 +2,28 @@ import cv2
 import numpy as np
 import pytest
 
+from fitter.export.bundle import result_files
 from fitter.export.display import png
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.export.results import CAMERA, result_of
 
 ALWAYS = {
-    "body_posed.glb",
+    "views/0/body_posed.glb",
     "body_canonical.glb",
-    "segmentation.png",
-    "trimap.png",
-    "overlay.png",
-    "views.png",
+    "views/0/segmentation.png",
+    "views/0/trimap.png",
+    "views/0/overlay.png",
+    "views/0/views.png",
 }
-REFLECTANCE = {"albedo.png", "shading.png", "shading_lambertian.png"}
-BEFORE_SHADING = {"body_posed_se.glb", "body_canonical_se.glb"}
+REFLECTANCE = {"views/0/albedo.png", "views/0/shading.png", "views/0/shading_lambertian.png"}
+BEFORE_SHADING = {"views/0/body_posed_se.glb", "body_canonical_se.glb"}
 WITH_SHADING = REFLECTANCE | BEFORE_SHADING
-ON_THE_PICTURE = {"segmentation.png", "trimap.png", "overlay.png"} | REFLECTANCE
+ON_THE_PICTURE = {
+    "views/0/segmentation.png",
+    "views/0/trimap.png",
+    "views/0/overlay.png",
+} | REFLECTANCE
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +38,7 @@ def image():
 
 @pytest.fixture(scope="module")
 def files(model, image):
-    return artifacts(result_of(model), model=model, images=[image])
+    return result_files(result_of(model), model=model, images=[image])
 
 
 def levels(content):
@@ -45,7 +50,7 @@ def test_a_fit_with_shading_gives_every_file(files):
 
 
 def test_a_fit_without_shading_gives_no_reflectance_pictures(model, image):
-    assert set(artifacts(result_of(model, light=None), model=model, images=[image])) == ALWAYS
+    assert set(result_files(result_of(model, light=None), model=model, images=[image])) == ALWAYS
 
 
 def test_pictures_lie_on_the_originals_pixels(files):
@@ -54,17 +59,17 @@ def test_pictures_lie_on_the_originals_pixels(files):
 
 
 def test_models_are_binary_gltf(files, model):
-    for name in ("body_posed.glb", "body_canonical.glb"):
+    for name in ("views/0/body_posed.glb", "body_canonical.glb"):
         assert len(read_glb(files[name]).attribute("POSITION")) == len(model.mean_vertices)
 
 
 def test_the_body_before_shading_lies_beside_the_final_one(files, model):
     for name, moved in (
-        ("posed", lambda vertices: vertices - np.array([0.0, 0.0, 0.05])),
-        ("canonical", lambda vertices: vertices * np.array([0.98, 1.0, 1.0])),
+        ("views/0/body_posed", lambda vertices: vertices - np.array([0.0, 0.0, 0.05])),
+        ("body_canonical", lambda vertices: vertices * np.array([0.98, 1.0, 1.0])),
     ):
-        final = read_glb(files[f"body_{name}.glb"])
-        outlined = read_glb(files[f"body_{name}_se.glb"])
+        final = read_glb(files[f"{name}.glb"])
+        outlined = read_glb(files[f"{name}_se.glb"])
         np.testing.assert_allclose(
             outlined.attribute("POSITION"), moved(final.attribute("POSITION")), atol=1e-6
         )
@@ -73,11 +78,11 @@ def test_the_body_before_shading_lies_beside_the_final_one(files, model):
 
 
 def test_the_highlight_is_what_distinguishes_blinn_phong_from_lambert(files):
-    lambert = levels(files["shading_lambertian.png"]).astype(int)
-    complete = levels(files["shading.png"]).astype(int)
+    lambert = levels(files["views/0/shading_lambertian.png"]).astype(int)
+    complete = levels(files["views/0/shading.png"]).astype(int)
     assert (complete - lambert).min() >= 0
     assert (complete - lambert).max() > 5
 
 
 def test_the_same_result_gives_the_same_bytes(files, model, image):
-    assert artifacts(result_of(model), model=model, images=[image]) == files
+    assert result_files(result_of(model), model=model, images=[image]) == files

@@ -235,11 +235,11 @@ def test_a_view_that_cannot_be_used_is_named():
     assert caught.value.code.startswith("image-")
 
 
-def test_a_fault_of_the_only_picture_has_no_place():
+def test_a_fault_of_the_only_picture_is_in_its_first_place():
     request = asked(STANDING)
     with pytest.raises(InvalidInputError) as caught:
         fit(replace(request, views=(broken(request),)))
-    assert caught.value.field == "image"
+    assert caught.value.field == "views.0.image"
 
 
 @pytest.mark.parametrize("count", [1, 2])

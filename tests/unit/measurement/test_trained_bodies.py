@@ -50,6 +50,11 @@ def mean_shape(trained):
     return np.zeros(len(trained[1].model.shape_basis))
 
 
+@pytest.fixture
+def some_shape(mean_shape):
+    return 1.2 * np.random.default_rng(4).normal(size=len(mean_shape))
+
+
 def by_name(body, values):
     return dict(zip((d.about.name for d in body.definitions), values, strict=True))
 

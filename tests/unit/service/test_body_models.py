@@ -87,19 +87,3 @@ def test_a_process_that_nobody_listens_to_ends_without_a_word():
         os.close(ours)
         assert process.communicate()[1] == ""
         assert process.returncode == 0
-
-
-def test_it_loads_neither_compiled_kernels_nor_picture_libraries():
-    done = subprocess.run(
-        [
-            sys.executable,
-            "-c",
-            "import sys, service.worker.model_reader; print(*sys.modules)",
-        ],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    loaded = set(done.stdout.split())
-    assert "fitter.body.storage" in loaded
-    assert not {"numba", "cv2", "PIL", "service.numerics.child"} & loaded

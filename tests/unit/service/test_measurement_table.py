@@ -15,6 +15,8 @@ def measurement(**changes: object) -> Measurement:
         "value": 80.25,
         "unit": "cm",
         "standard_error": 1.5,
+        "low": 77.31,
+        "high": 83.19,
         "given": False,
         "definition": 'At the navel, "level".\nBreathing out.',
         "source": "ISO 8559-1",
@@ -45,9 +47,9 @@ def test_no_measurements_leave_the_header():
 
 def cell(label: str) -> str:
     """What the table has for a label that somebody typed."""
-    size = SizeChance(label=label, probability=0.5, cost=-1.5, fits=True)
+    size = SizeChance(label=label, probability=0.5)
     (row,) = csv.DictReader(io.StringIO(models_csv([size], SizeChance.model_fields).decode()))
-    assert row["cost"] == "-1.5", "a number stays one"
+    assert row["probability"] == "0.5", "a number stays one"
     return row["label"]
 
 
