@@ -192,8 +192,8 @@ def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Trian
 def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
     """Every file of a fit by name: GLB meshes, and pictures drawn over the encoded ``images``.
 
-    Of several pictures, ``images`` are in the order of the request, and what belongs to one has
-    its number in its name (``overlay_0.png``).
+    The ``images`` are in the order of the request; the names of what belongs to one begin with its
+    place there (``views/0/overlay.png``).
 
     Raises
     ------
@@ -203,7 +203,7 @@ def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
     Examples
     --------
     >>> from fitter import files_of
-    >>> files_of(result, picture)["body_posed.glb"][:4]
+    >>> files_of(result, picture)["views/0/body_posed.glb"][:4]
     b'glTF'
     """
     return _PACKAGED.files_of(result, *images)
