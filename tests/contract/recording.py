@@ -130,7 +130,7 @@ def _fits(
     links = answer.json()["links"]
     begun = recorder.ask("", "POST", FITS, json=usual | {"optimizer": "simplex"})
     path = begun.headers["Location"]
-    recorder.until(path, lambda fit: fit["state"] == "running" and fit["progress"] > 0)
+    recorder.until(path, lambda fit: fit["stage"] == "silhouette_and_edges")
     recorder.ask("running", "GET", path)
     recorder.ask("stopping", "POST", f"{path}/cancel")
     recorder.until_ended(path)

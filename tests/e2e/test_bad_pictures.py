@@ -107,7 +107,7 @@ def test_what_only_the_fit_can_find_wrong_ends_as_a_problem(
     assert job["state"] == "failed"
     problem = job["problem"]
     assert problem["type"] == "/problems/unusable-input"
-    assert problem["field"] == field
+    assert problem["field"] == f"views.0.{field}"
     assert problem["code"] == code
     assert problem["errors"][0]["reason"]
     assert problem["remedy"]

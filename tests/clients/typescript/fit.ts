@@ -14,7 +14,11 @@ function told<T>(data: T | undefined, error: components["schemas"]["Problem"] | 
 }
 
 type Fit = components["schemas"]["Fit"];
-type FitResult = components["schemas"]["FitResult"];
+
+interface Found {
+  measurements: Record<string, number>;
+  views: (components["schemas"]["ViewKind"] | null)[];
+}
 
 async function withPictures(form: FormData, sent: string[]): Promise<FormData> {
   for (const picture of sent) {
@@ -48,7 +52,7 @@ async function uploaded(picture: string): Promise<string> {
   return told(data, error).id;
 }
 
-async function ended(fit: Fit): Promise<FitResult> {
+async function found(fit: Fit): Promise<Found> {
   const path = { fit_id: fit.id };
   while (fit.state === "queued" || fit.state === "running") {
     await new Promise((resume) => setTimeout(resume, 300));
@@ -57,13 +61,17 @@ async function ended(fit: Fit): Promise<FitResult> {
   }
   if (fit.state !== "succeeded") throw new Error(fit.problem?.detail ?? fit.state);
   const { data, error } = await GET("/v1/fits/{fit_id}/result", { params: { path } });
-  return told(data, error);
+  const { measurements, views } = told(data, error);
+  return {
+    measurements: Object.fromEntries(measurements.map(({ name, value }) => [name, value])),
+    views: views.map(({ view }) => view),
+  };
 }
 
 const images: string[] = [];
 for (const picture of pictures) images.push(await uploaded(picture));
 const fits = [await submittedAsForm(), await submittedAsJson(images)] as const;
-const results = [await ended(fits[0]), await ended(fits[1])] as const;
+const results = [await found(fits[0]), await found(fits[1])] as const;
 const path = { fit_id: fits[0].id };
 const file = await GET("/v1/fits/{fit_id}/files/{name}", {
   params: { path: { ...path, name: "views/0/body_posed.glb" } },
@@ -83,10 +91,8 @@ for (const image_id of images) {
 }
 console.log(
   JSON.stringify({
-    measurements: results.map(({ measurements }) =>
-      Object.fromEntries(measurements.map(({ name, value }) => [name, value])),
-    ),
-    views: results[0].views.map(({ view }) => view),
+    measurements: results.map(({ measurements }) => measurements),
+    views: results[0].views,
     glb: new TextDecoder().decode(glb.slice(0, 4)),
     ends: events.split("event: end").length - 1,
     erased,
