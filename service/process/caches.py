@@ -36,7 +36,9 @@ def settle_folders() -> Path:
     if VARIABLE not in os.environ:
         # No name: models are prepared by every process that needs them.
         os.environ[VARIABLE] = str(users_folder() or "")
-    named = os.environ.get(KERNELS)
+    # Set even to nothing, which is beside the code: a file of Numba's in the current folder would
+    # else name a folder, whose kernels are run.
+    named = os.environ.setdefault(KERNELS, "")
     if not named and "numba" not in sys.modules and not os.access(package(), os.W_OK):
         kernels = Path(os.environ[VARIABLE] or work) / "kernels"
         link_kernels(kernels)

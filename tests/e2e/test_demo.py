@@ -62,8 +62,8 @@ def test_every_true_measurement_is_printed_beside_what_was_found(
     found = {measurement.name: measurement.value for measurement in result.measurements}
     assert set(truth) <= set(found)
     for name, true in truth.items():
-        cell = re.compile(rf"│ {name.replace('_', ' ')} +│")
-        row = next(line for line in printed.splitlines() if cell.search(line))
+        begin = f"{name.replace('_', ' ')}, "
+        row = next(line for line in printed.splitlines() if line.startswith(begin))
         numbers = [float(number) for number in re.findall(r"[-+]?\d+\.\d", row)]
         assert numbers[-2] == pytest.approx(true, abs=0.051)
         assert numbers[-1] == pytest.approx(found[name] - true, abs=0.051)

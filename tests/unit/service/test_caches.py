@@ -68,6 +68,14 @@ def test_a_cache_is_never_looked_for_in_the_current_folder(caches, monkeypatch):
     assert list(caches.iterdir()) == []
 
 
+def test_a_folder_of_kernels_is_always_named_so_that_no_file_in_the_current_folder_does(
+    caches, monkeypatch
+):
+    monkeypatch.delenv(KERNELS)
+    settle_folders()
+    assert os.environ[KERNELS] == ""
+
+
 def test_where_numba_is_loaded_already_its_folder_stays(caches, monkeypatch):
     monkeypatch.setenv(KERNELS, "")
     monkeypatch.setitem(sys.modules, "numba", sys)
