@@ -2,8 +2,10 @@
 
 import logging
 import os
+import signal
 import tempfile
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
@@ -12,6 +14,32 @@ from service.process.confinement import write_only_below
 from service.settings import Settings
 
 LOG: Final = logging.getLogger(__name__)
+
+LOOK_S: Final = 1.0
+"""So often a process that loads looks whether its worker is still there."""
+
+
+@contextmanager
+def _ending_with_the_worker() -> Iterator[None]:
+    """End this process if the worker ends meanwhile: its folder with the kernels is gone then.
+
+    They would be compiled anew, for minutes, and nobody would use them.
+    """
+    worker = os.getppid()
+
+    def look(*_: object) -> None:
+        if os.getppid() != worker:
+            os._exit(0)
+
+    before = signal.signal(signal.SIGALRM, look)
+    # Libraries go on with what they wait for.
+    signal.siginterrupt(signal.SIGALRM, False)
+    signal.setitimer(signal.ITIMER_REAL, LOOK_S, LOOK_S)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def _load(settings: Settings) -> None:
@@ -47,8 +75,9 @@ KEPT: Final = Path(os.environ[KERNELS]) if os.environ.get(KERNELS) else None
 OWN: Final = Path(tempfile.mkdtemp(prefix="kernels-"))
 link_kernels(OWN, KEPT)
 os.environ[KERNELS] = str(OWN)
-_load(Settings())
-keep_kernels(OWN, KEPT)
+with _ending_with_the_worker():
+    _load(Settings())
+    keep_kernels(OWN, KEPT)
 
 # From here on pictures are decoded, in what is forked: what it may write ends with the worker.
 write_only_below(os.environ["TMPDIR"])
