@@ -86,7 +86,15 @@ def capacity(children: int) -> int:
 class QuickLane:
     """Answers questions in the order they come; for any number of threads."""
 
-    def __init__(self, server: ForkServer, setup: ChildSetup, *, children: int) -> None:
+    def __init__(
+        self,
+        server: ForkServer,
+        setup: ChildSetup,
+        *,
+        children: int,
+        ready_within_s: float = READY_WITHIN_S,
+    ) -> None:
+        self._ready_within_s = ready_within_s
         crashes = CrashesInARow(server)
         self._idle: queue.SimpleQueue[_Place] = queue.SimpleQueue()
         for _ in range(children):
@@ -101,7 +109,7 @@ class QuickLane:
         with self._place(None if question.patient else MOMENT_S) as place:
             if place is None:
                 return _told(UNAVAILABLE)
-            within_s = READY_WITHIN_S if question.patient else MOMENT_S
+            within_s = self._ready_within_s if question.patient else MOMENT_S
             return place.answer(question, parts, ready_within_s=within_s)
 
     @contextlib.contextmanager

@@ -17,9 +17,6 @@ HEIC: Final = "image/heic"
 KINDS: Final = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp", FORMAT: HEIC}
 """Media types by Pillow's names."""
 
-MOST_PIXELS: Final = 10**9
-"""Of a size that a header may give: more than any setting allows."""
-
 TURNED: Final = range(5, 9)
 """Orientations that swap width and height."""
 
@@ -64,10 +61,10 @@ def read_image_header(content: bytes) -> ImageHeader:
     if kind == FORMAT:
         ready_decoder("image")
     with warnings.catch_warnings(), contextlib.ExitStack() as stack:
-        # The size is judged by the caller.
         warnings.simplefilter("ignore")
+        # The size is judged by the caller: nothing is decoded here, however large it is.
         stack.callback(setattr, Image, "MAX_IMAGE_PIXELS", Image.MAX_IMAGE_PIXELS)
-        Image.MAX_IMAGE_PIXELS = MOST_PIXELS
+        Image.MAX_IMAGE_PIXELS = None
         try:
             picture = Image.open(io.BytesIO(content), formats=(kind,))
         except MemoryError:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from api_schemas.fit import FitRequest
-from tests.heif_files import Item, heif, size
+from tests.heif_files import EIGHT_BITS
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     POINTS,
@@ -21,8 +21,6 @@ from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_formats import wait_for_estimator
 
 WITHOUT_HEIC = Path(__file__).parent / "without_heic"
-HEIC = heif(Item(b"hvc1", b"", (size(640, 480),)))
-"""A head without a picture: nothing is decoded here."""
 
 
 def test_picture_and_request_of_a_job_can_be_had_again(service: Service):
@@ -71,12 +69,14 @@ def test_a_picture_that_cannot_be_decoded_is_no_jpeg(service: Service):
 
 
 def test_a_heic_is_kept_as_it_was_sent(service: Service):
-    answer = service.client.post("/v1/images", files={"image": ("photo.heic", HEIC)})
+    answer = service.client.post("/v1/images", files={"image": ("photo.heic", EIGHT_BITS)})
     kept = answer.raise_for_status().json()
-    assert (kept["media_type"], kept["width"], kept["height"]) == ("image/heic", 640, 480)
-    job = service.client.post("/v1/fits", json=REQUEST | said_of_view(image_id=kept["id"])).json()
+    assert (kept["media_type"], kept["width"], kept["height"]) == ("image/heic", 96, 128)
+    inside = {name: [0.2 * x, 0.3 * y] for name, (x, y) in POINTS.items()}
+    request = REQUEST | said_of_view(image_id=kept["id"], points=inside)
+    job = service.client.post("/v1/fits", json=request).raise_for_status().json()
     sent = service.client.get(job["links"]["files"]["views/0/image"])
-    assert (sent.headers["content-type"], sent.content) == ("image/heic", HEIC)
+    assert (sent.headers["content-type"], sent.content) == ("image/heic", EIGHT_BITS)
 
 
 def test_where_no_heic_is_decoded_it_is_refused_with_the_remedy(embedded: Machine):
@@ -84,7 +84,7 @@ def test_where_no_heic_is_decoded_it_is_refused_with_the_remedy(embedded: Machin
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", path)
         with running_service(embedded, api_only=True) as service:
-            files = {"image": ("photo.heic", HEIC)}
+            files = {"image": ("photo.heic", EIGHT_BITS)}
             for answer in (
                 service.client.post("/v1/images", files=files),
                 service.client.post("/v1/points", files=files),
