@@ -6,7 +6,7 @@ the same bytes.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 from typing import Final
 
@@ -32,7 +32,7 @@ TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rendition:
-    """A file that can be requested.
+    """A file that can be requested, and the name by which it is.
 
     ``source`` is the stored file that it is or is converted from; ``mesh_format`` is the format of
     a mesh that is not stored. ``tag`` identifies its bytes.
@@ -66,7 +66,7 @@ def chosen_rendition(
     media_type = preferred(accept, list(forms))
     if media_type is None:
         raise not_acceptable(accept, what=name, offered=list(forms))
-    return forms[media_type]
+    return replace(forms[media_type], name=name)
 
 
 def picture_rendition(name: str, picture: StoredBlob, *, accept: str | None) -> Rendition:

@@ -99,7 +99,7 @@ def test_who_says_nothing_of_formats_gets_what_is_stored(service: Service, files
     answer = without_accept(service, f"{files}/body_canonical.glb")
     assert answer.headers["content-type"] == GLB
     assert len(answer.content) == GLB_BYTES
-    picture = get(service, f"{files}/overlay.png", Accept="model/obj")
+    picture = get(service, f"{files}/views/0/overlay.png", Accept="model/obj")
     assert picture.headers["content-type"] == "image/png"
 
 
@@ -119,23 +119,24 @@ def test_what_nobody_can_write_is_not_acceptable(service: Service, files, accept
     "name",
     [
         *("body_canonical.fbx", "body_canonical.xyz", "body_canonical", "body_canonical.", ".obj"),
-        *("body_canonical.mtl", "overlay.obj", "person.usdz", "measurements.json", "result.csv"),
+        *("body_canonical.mtl", "overlay.png", "views/0/overlay.obj"),
+        *("measurements.json", "result.csv"),
     ],
 )
 def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
     problem = checked(get(service, f"{files}/{name}"), 404)
     assert f"'{name}'" in problem.detail
-    assert "body_canonical (.glb, .obj, .ply, .stl, .usdz)" in problem.remedy
-    for there in ("overlay.png", "person.npz", "measurements.csv", "result.json"):
+    assert "body_canonical (.glb, .obj, .ply, .stl)" in problem.remedy
+    for there in ("views/0/overlay.png", "person.npz", "measurements.csv", "result.json"):
         assert there in problem.remedy
 
 
-def test_a_job_that_has_no_files_says_where_it_stands(service: Service):
+def test_a_fit_without_a_result_says_what_there_is(service: Service):
     path = service.submit({"unusable": True})
     service.ended(path)
     for name in ("body_canonical.obj", "measurements.csv"):
         problem = checked(get(service, f"{path}/files/{name}"), 404)
-        assert "failed" in problem.remedy
+        assert "Ask for views/0/image; those of a result" in problem.remedy
 
 
 def test_measurements_are_a_table_with_units(service: Service, files):
@@ -151,7 +152,8 @@ def test_measurements_are_a_table_with_units(service: Service, files):
 
 def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files):
     links = service.job(files.replace("/files", ""))["links"]["files"]
-    assert set(links) == {"body_canonical.glb", "overlay.png", "person.npz", "result.json"}
+    assert {"body_canonical.glb", "views/0/body_posed.glb", "result.json"} <= set(links)
+    assert not {name for name in links if name.endswith((".csv", *MESH_TYPES))}
 
 
 @pytest.mark.parametrize(
@@ -202,22 +204,3 @@ def test_without_an_estimator_stored_files_are_there_and_others_are_for_later(tm
         answer = get(service, f"{files}/body_canonical.obj")
         assert checked(answer, 503).code == "estimator-unavailable"
         assert int(answer.headers["Retry-After"]) > 0
-
-
-def test_without_its_library_usdz_is_not_offered_and_who_asks_is_told(tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_USD), prepend=":")
-    with running_service(Machine(tmp_path)) as service:
-        wait_for_estimator(service)
-        files = f"{service.fitted()}/files"
-        assert get(service, f"{files}/body_canonical.obj").status_code == 200
-        told = [
-            checked(get(service, f"{files}/body_canonical.usdz"), 404),
-            checked(get(service, f"{files}/body_canonical.glb", Accept="model/vnd.usdz+zip"), 406),
-        ]
-        for problem in told:
-            assert problem.code == "format-not-installed"
-            assert "usd-core" in problem.detail
-            assert "`usdz`" in problem.remedy
-            assert "vnd.usdz" not in problem.remedy
-        listed: Problem = checked(get(service, f"{files}/body_canonical.fbx"), 404)
-        assert "body_canonical (.glb, .obj, .ply, .stl)," in listed.remedy
