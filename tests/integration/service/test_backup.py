@@ -82,7 +82,7 @@ def contents(service: Service, paths: list[str]) -> Mapping[str, bytes]:
     """Everything that a caller can fetch of these fits."""
     found: dict[str, bytes] = {}
     for path in paths:
-        links = [path, f"{path}/request", f"{path}/image", f"{path}/result"]
+        links = [path, f"{path}/request", f"{path}/files/views/0/image", f"{path}/result"]
         result = service.client.get(f"{path}/result").raise_for_status().json()
         links += [f"{path}/files/{each['name']}" for each in result["files"]]
         for link in links:

@@ -19,7 +19,7 @@ def get(tmp_path: Path) -> Get:
     folder = tmp_path / "site"
     (folder / "guide").mkdir(parents=True)
     (folder / "index.html").write_text("<h1>Maquette</h1>")
-    (folder / "guide" / "scans.html").write_text("<h1>Front and side</h1>")
+    (folder / "guide" / "requests.html").write_text("<h1>Requests</h1>")
     (tmp_path / "secret.txt").write_text("not of the site")
     return getting(folder)
 

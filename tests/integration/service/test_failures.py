@@ -29,7 +29,7 @@ def problem_of(service: Service, script: dict[str, object]) -> dict[str, object]
 def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: Service):
     problem = problem_of(service, {"unusable": True})
     assert problem["type"] == "/problems/unusable-input"
-    assert problem["field"] == "image"
+    assert problem["field"] == "views.0.image"
     assert problem["code"] == "image-truncated"
     assert problem["detail"] == "image: The picture ends too early."
     assert problem["remedy"] == "Send the whole file."

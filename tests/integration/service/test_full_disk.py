@@ -23,6 +23,7 @@ from tests.integration.service.harness import (
     eventually,
     pids_noted,
     running_service,
+    said_of_view,
 )
 from tests.small_disk import BYTES_PER_MB, SmallDisk, small_disk
 
@@ -118,13 +119,12 @@ def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
     ready = service.client.get("/healthz/ready")
     assert (ready.status_code, ready.json()["code"]) == (503, "disk-full")
     assert_no_room(service.post())
-    by_id = json.dumps(REQUEST | {"image_id": image})
+    by_id = json.dumps(REQUEST | said_of_view(image_id=image))
     assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
     assert_no_room(upload(service, scripted_image({"new": True})))
     other = {"kind": "pose", "pose": "sitting"}
     assert_no_room(service.client.post(f"{fit}/products", json=other))
     assert service.client.post(f"{fit}/products", json={"kind": "pose"}).status_code == 200
-    assert_no_room(service.client.post(f"{fit}/retry"))
     assert blobs_of(disk) == kept
 
     assert service.post(headers=key).headers["Location"] == fit

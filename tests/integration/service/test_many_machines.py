@@ -115,7 +115,7 @@ def test_a_host_takes_over_from_one_that_is_gone(
         assert [job["state"] for job in jobs] == ["succeeded"] * JOBS
         assert sum(job["attempt"] for job in jobs) > JOBS, "nothing was taken over"
         for script, job in zip(scripts, jobs, strict=True):
-            assert artifact(service, job, "overlay.png") == scripted_image(script)
+            assert artifact(service, job, "views/0/overlay.png") == scripted_image(script)
         for job in jobs:
             assert any(job["id"] in key for key in storage.object_names())
             assert service.client.delete(f"/v1/fits/{job['id']}").status_code == 204

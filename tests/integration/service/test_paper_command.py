@@ -18,7 +18,7 @@ def test_every_figure_and_the_table_are_drawn(tmp_path):
     (tmp_path / "painting.jpg").write_bytes(sample.image)
     (tmp_path / "painting.json").write_bytes(sample.request)
     out = tmp_path / "out"
-    proposed = json.loads(sample.request) | {"points": "auto"}
+    proposed = json.loads(sample.request) | {"views": [{"points": "auto"}]}
     (tmp_path / "proposed.json").write_text(json.dumps(proposed))
     painting = ["--painting", str(tmp_path / "painting.jpg"), str(tmp_path / "painting.json")]
     picture = ["--picture", str(tmp_path / "painting.jpg"), str(tmp_path / "proposed.json")]
@@ -38,7 +38,8 @@ def test_every_figure_and_the_table_are_drawn(tmp_path):
 def test_a_picture_that_cannot_be_used_is_told(tmp_path, capsys):
     sample = load_woman()
     (tmp_path / "p.jpg").write_bytes(sample.image)
-    (tmp_path / "p.json").write_text(json.dumps({"gender": "female", "points": {"nose": [1, 1]}}))
+    request = {"gender": "female", "views": [{"points": {"nose": [1, 1]}}]}
+    (tmp_path / "p.json").write_text(json.dumps(request))
     given = [str(tmp_path / "p.jpg"), str(tmp_path / "p.json")]
     with pytest.raises(SystemExit) as ended:
         main(["paper", "--output", str(tmp_path / "out"), "--picture", *given])
