@@ -1,5 +1,7 @@
 """Every mesh file that leaves the service: of a fit of two pictures, and of what is made of it.
 
+And of a fit of the sample alone, which the documents' examples draw.
+
 Made once for all tests of a run, by the pipeline that the workers run, and kept as files, because
 that is what foreign readers open.
 """
@@ -11,7 +13,7 @@ from pathlib import Path
 
 from api_schemas.fit import FitRequest
 from api_schemas.products import ProductRequest
-from service.demo_data.sample import load_views_sample
+from service.demo_data.sample import load_sample, load_views_sample
 from service.jobs.inputs import RESULT, SentPicture, named_pictures, product_inputs
 from service.submissions.submission import check_submission
 from service.worker.files import with_result_document
@@ -59,16 +61,17 @@ def made_in(folder: Path) -> Path:
 
 
 def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
-    fit = _of_fit()
+    sample, pair = load_sample(), load_views_sample()
+    fit = _of_fit(pair.request, *pair.images)
     yield "fit", fit
     yield from _products(PRODUCTS, fit)
+    yield "sample", _of_fit(sample.request, sample.image)
 
 
-def _of_fit() -> dict[str, bytes]:
+def _of_fit(request: bytes, *images: bytes) -> dict[str, bytes]:
     """A fit's files, and its pictures."""
-    sample = load_views_sample()
-    pictures = tuple(SentPicture(image, None) for image in sample.images)
-    asked = FitRequest.model_validate_json(sample.request)
+    pictures = tuple(SentPicture(image, None) for image in images)
+    asked = FitRequest.model_validate_json(request)
     checked = check_submission(asked, pictures, max_pixels=MAX_PIXELS)
     output = run(
         PipelineInput(request=checked.request, pictures=pictures, max_pixels=MAX_PIXELS),

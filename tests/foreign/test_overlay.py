@@ -25,20 +25,17 @@ from tests.e2e.page.browser import chromium
 from tests.integration.service.harness import eventually
 from tests.readme import block
 
-PICTURE = FOLDER / "front.jpg"
-"""The first of those that were fitted."""
-
 MAGENTA = (255, 0, 255)
 """No body is of this colour."""
 
 
 @pytest.fixture
 def folder(files: Path, tmp_path: Path) -> Path:
-    """What the README's commands leave, and the fit's first picture where they have the sample."""
+    """What the README's commands leave, and the sample where they expect it."""
     for name in ("views/0/body_posed.glb", "result.json"):
-        shutil.copy(files / "fit" / name, tmp_path)
+        shutil.copy(files / "sample" / name, tmp_path)
     (tmp_path / "service" / "demo_data").mkdir(parents=True)
-    shutil.copy(PICTURE, tmp_path / "service" / "demo_data" / "sample.jpg")
+    shutil.copy(FOLDER / "sample.jpg", tmp_path / "service" / "demo_data")
     return tmp_path
 
 
@@ -53,15 +50,15 @@ def test_trimesh_draws_the_body_where_the_picture_has_it(files: Path, folder: Pa
     )
     assert done.returncode == 0, done.stderr
     drawn = np.asarray(Image.open(folder / "drawn.png"))
-    sent = np.asarray(Image.open(PICTURE).convert("RGB"))
-    check((drawn != sent).any(axis=2), files)
+    sample = np.asarray(Image.open(FOLDER / "sample.jpg").convert("RGB"))
+    check((drawn != sample).any(axis=2), files)
 
 
 def test_three_js_draws_the_body_where_the_picture_has_it(
     files: Path, folder: Path, npm_readers: Path
 ):
     (folder / "index.html").write_text(block("three"))
-    shutil.copy(PICTURE, folder / "sample.jpg")
+    shutil.copy(FOLDER / "sample.jpg", folder)
     (folder / "three").symlink_to(npm_readers / "node_modules" / "three")
     with drawn_page(folder, width=720, height=960) as page:
         # What shows through is not the body.
@@ -84,12 +81,12 @@ def test_the_turntable_shows_the_textured_body_turning(
 
 def check(drawn: np.ndarray, files: Path) -> None:
     """Compare with where our own rasteriser has the body, and with where the person was found."""
-    fitted = FittedPerson.from_bytes((files / "fit" / "person.npz").read_bytes())
+    fitted = FittedPerson.from_bytes((files / "sample" / "person.npz").read_bytes())
     evaluator = prepared_model(fitted.gender, models=None).operators.evaluator
     body = evaluator.vertices(fitted.body)
     own = render(body, evaluator.model.triangles, fitted.camera).silhouette
     person = (
-        np.asarray(Image.open(files / "fit" / "views" / "0" / "segmentation.png").convert("L"))
+        np.asarray(Image.open(files / "sample" / "views" / "0" / "segmentation.png").convert("L"))
         > 127
     )
     assert drawn.shape == own.shape == person.shape
