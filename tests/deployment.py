@@ -181,7 +181,7 @@ class Deployment:
 
 
 def _kind(process: Process, fork_servers: set[int]) -> Kind | None:
-    if process.name == "estimator":
+    if process.name in ("estimator", "header"):
         return Kind.ESTIMATOR
     if process.pid in fork_servers:
         return Kind.FIT if process.parent in fork_servers else Kind.FORK_SERVER
