@@ -32,6 +32,7 @@ class Kind(StrEnum):
     FIT = "fit"
     FORK_SERVER = "fork server"
     ESTIMATOR = "estimator"
+    HEADER = "header"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,6 +184,8 @@ class Deployment:
 def _kind(process: Process, fork_servers: set[int]) -> Kind | None:
     if process.name in ("estimator", "header"):
         return Kind.ESTIMATOR
+    if process.name == "header":
+        return Kind.HEADER
     if process.pid in fork_servers:
         return Kind.FIT if process.parent in fork_servers else Kind.FORK_SERVER
     for kind, sign in (
