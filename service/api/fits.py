@@ -228,7 +228,7 @@ def get_fit_result(
 )
 async def get_fit_file(record: Found, name: FileName, context: Context, wanted: Wanted) -> Response:
     """Return a file, whole or in part."""
-    rendition = chosen_rendition(record.files, name, accept=wanted.accept)
+    rendition = chosen_rendition(record.files, name, state=record.state, accept=wanted.accept)
     return await answer_file(
         context, rendition, partial(stored_content, context, record.id), wanted
     )

@@ -154,7 +154,9 @@ async def get_product_file(
 ) -> Response:
     """Return a file, whole or in part."""
     product = await run_in_threadpool(_find, context, fit, product_id)
-    rendition = chosen_rendition(product_files(product), name, accept=wanted.accept)
+    rendition = chosen_rendition(
+        product_files(product), name, state=product.state, accept=wanted.accept
+    )
     return await answer_file(context, rendition, partial(stored_content, context, fit.id), wanted)
 
 

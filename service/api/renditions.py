@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 from typing import Final
 
+from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
@@ -46,9 +47,11 @@ class Rendition:
 
 
 def chosen_rendition(
-    files: Mapping[str, StoredBlob], name: str, *, accept: str | None
+    files: Mapping[str, StoredBlob], name: str, *, state: JobState, accept: str | None
 ) -> Rendition:
     """Find a file by its name; for that of a GLB or a picture, in the format ``accept`` prefers.
+
+    ``state`` is that of the fit or product that has these files.
 
     Raises
     ------
@@ -57,7 +60,7 @@ def chosen_rendition(
     """
     there_are = {each.name: each for each in renditions(files)}
     if name not in there_are:
-        raise _unknown(name, there_are)
+        raise _unknown(name, there_are, state)
     if is_picture(name):
         return picture_rendition(name, files[name], accept=accept)
     if not is_negotiated(name):
@@ -121,12 +124,15 @@ def _written(name: str, mesh: StoredBlob, kind: MeshFormat) -> Rendition:
     )
 
 
-def _unknown(name: str, there_are: Mapping[str, Rendition]) -> ProblemError:
+def _unknown(name: str, there_are: Mapping[str, Rendition], state: JobState) -> ProblemError:
+    there_is = f"Ask for {_named(there_are)}." if there_are else "Nothing is there to be asked for."
+    if state is not JobState.SUCCEEDED:
+        there_is += f" The state is {state}; only what has succeeded has files of a result."
     return ProblemError(
         problem(
             "not-found",
             detail=f"There is no file '{name}' here.",
-            remedy=f"Ask for {_named(there_are)}; those of a result are there once it is.",
+            remedy=there_is,
         )
     )
 

@@ -136,7 +136,7 @@ def test_a_fit_without_a_result_says_what_there_is(service: Service):
     service.ended(path)
     for name in ("body_canonical.obj", "measurements.csv"):
         problem = checked(get(service, f"{path}/files/{name}"), 404)
-        assert "Ask for views/0/image; those of a result" in problem.remedy
+        assert problem.remedy.startswith("Ask for views/0/image. The state is failed")
 
 
 def test_measurements_are_a_table_with_units(service: Service, files):
