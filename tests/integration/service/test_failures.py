@@ -31,7 +31,7 @@ def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: 
     assert problem["type"] == "/problems/unusable-input"
     assert problem["field"] == "views.0.image"
     assert problem["code"] == "image-truncated"
-    assert problem["detail"] == "image: The picture ends too early."
+    assert problem["detail"] == "views.0.image: The picture ends too early."
     assert problem["remedy"] == "Send the whole file."
 
 
