@@ -79,8 +79,10 @@ def _write_sample(staged: Staged, folder: Path) -> None:
     picture = (folder / f"{staged.case.name}.jpg").read_bytes()
     (SAMPLE_FOLDER / "sample.jpg").write_bytes(picture)
     described = document(staged)
+    request = dict(described["request"])
+    view = {"points": request.pop("points")}
     for name, values in (
-        ("request", described["request"]),
+        ("request", request | {"views": [view]}),
         ("truth", {"measurements": described["truth"], "credits": described["credits"]}),
     ):
         (SAMPLE_FOLDER / f"{name}.json").write_text(json.dumps(values, indent=1) + "\n")
