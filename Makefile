@@ -118,7 +118,7 @@ lock:
 		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 
 $(STAMP): $(PACKAGES)
-	$(VENV)/bin/python -m service.worker.kernels
+	$(VENV)/bin/python -m service.compute.kernels
 	touch $(STAMP)
 
 $(PACKAGES): pyproject.toml service/version.py requirements.lock requirements-detector.txt

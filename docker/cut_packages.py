@@ -1,7 +1,7 @@
 """Erase what packages bring and a running service never reads, and print what that was worth.
 
 ``python3 cut_packages.py SITE_PACKAGES``. Other programs may need it; the image runs the service
-alone. A fit (`python -m service.worker.kernels`) comes after this where the image is built.
+alone. A fit (`python -m service.compute.kernels`) comes after this where the image is built.
 """
 
 import shutil

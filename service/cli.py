@@ -202,8 +202,8 @@ def _serve(parsed: argparse.Namespace) -> int:
 
 
 def _worker(_: argparse.Namespace) -> int:
+    from service.compute.main import run_worker
     from service.startup import begin, run_told
-    from service.worker.main import run_worker
 
     settings = begin("worker")
     return run_told("worker", lambda: run_worker(settings))
@@ -219,7 +219,7 @@ def _prepare(parsed: argparse.Namespace) -> int:
 
 def _keys(parsed: argparse.Namespace) -> int:
     from service.commands import keys
-    from service.engine.keys import Role
+    from service.jobs.keys import Role
     from service.startup import read_settings, run_told, warn_of_unknown_names
 
     settings = read_settings("keys", _given(parsed, "data_dir"))

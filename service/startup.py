@@ -69,7 +69,7 @@ def _told(error: Exception) -> tuple[int, str] | None:
     from sqlalchemy.exc import OperationalError
 
     from service.blobs import BlobsUnavailableError, StorageUnusableError
-    from service.engine.port import DatabaseUnusableError, EngineUnavailableError
+    from service.jobs.port import DatabaseUnusableError, EngineUnavailableError
 
     if isinstance(error, DatabaseUnusableError | StorageUnusableError | SettingError):
         return UNUSABLE_SETTINGS, str(error)

@@ -4,7 +4,7 @@ from typing import Any
 
 import sqlalchemy as sa
 
-from service.engine.tables import JOBS
+from service.jobs.tables import JOBS
 
 
 def insert_job(connection: sa.Connection, name: str, **values: Any) -> None:

@@ -17,7 +17,7 @@ from service.api.context import ApiContext
 from service.api.fit_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.storage import disk_full, erase_at_once, storing
-from service.engine.port import FIT, Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
+from service.jobs.port import FIT, Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
 from service.jobs.states import ACTIVE
 from service.representation.jobs import POLL_AFTER_S, fit_path
 

@@ -42,8 +42,8 @@ from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
-from service.engine.dbos_jobs import JobEngine
-from service.engine.keys import KeyRing
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.keys import KeyRing
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk
 from service.settings import Settings

@@ -12,8 +12,8 @@ from service.api.context import SOLE_TENANT, Caller
 from service.api.credentials import KeyUses, KnownKeys
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
-from service.engine.keys import ApiKey, Role
-from service.engine.port import EngineUnavailableError
+from service.jobs.keys import ApiKey, Role
+from service.jobs.port import EngineUnavailableError
 
 OPEN: Final = ("/healthz/", "/problems/", "/docs", "/documentation", "/openapi.json", "/page/")
 """Prefixes of public paths: they show nothing that belongs to a tenant."""

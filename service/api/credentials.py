@@ -13,8 +13,8 @@ from typing import Final
 
 from anyio import CapacityLimiter, to_thread
 
-from service.engine.keys import ApiKey, KeyRing, hash_key
-from service.engine.port import EngineUnavailableError
+from service.jobs.keys import ApiKey, KeyRing, hash_key
+from service.jobs.port import EngineUnavailableError
 
 LOG: Final = logging.getLogger(__name__)
 

@@ -26,14 +26,14 @@ from service.api.renditions import picture_rendition
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
 from service.api.uploads import picture_form, read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
-from service.engine.images import (
+from service.jobs.images import (
     ImageQuotaError,
     ImageRecord,
     KeptImage,
     NewImage,
 )
-from service.engine.port import StoredBlob
 from service.jobs.inputs import IMAGE
+from service.jobs.port import StoredBlob
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 

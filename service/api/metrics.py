@@ -18,10 +18,10 @@ from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
 from api_schemas.jobs import JobState
-from service.engine.dbos_jobs import JobEngine
-from service.engine.port import EngineUnavailableError
-from service.engine.statistics import BOUNDS_S
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.port import EngineUnavailableError
 from service.jobs.states import TERMINAL
+from service.jobs.statistics import BOUNDS_S
 from service.process.data_folder import Disk
 
 AVAILABLE: Final = ("maquette_database_available", "Whether this process reaches the database.")

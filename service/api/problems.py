@@ -20,7 +20,7 @@ from api_schemas.problems import (
     problem,
 )
 from service.blobs import BlobsUnavailableError, StorageFullError
-from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
+from service.jobs.port import EngineFullError, EngineUnavailableError, JobExpiredError
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import field_problems
 

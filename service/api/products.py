@@ -32,8 +32,8 @@ from service.api.product_parts import FORM_PARTS
 from service.api.renditions import chosen_rendition
 from service.api.storage import disk_full, erase_at_once, storing
 from service.api.uploads import MULTIPART, file_part, read_request_and_files
-from service.engine.port import JobRecord, NewProduct, StoredBlob, Submission, SubmitOutcome
 from service.jobs.inputs import RESULT, product_inputs
+from service.jobs.port import JobRecord, NewProduct, StoredBlob, Submission, SubmitOutcome
 from service.jobs.states import ACTIVE
 from service.representation.jobs import FITS, POLL_AFTER_S
 from service.representation.products import (

@@ -17,8 +17,8 @@ from api_schemas.problems import problem
 from api_schemas.service import Ready
 from service.api.problems import ProblemError
 from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
-from service.engine.dbos_jobs import JobEngine
-from service.engine.port import WorkerStatus
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.port import WorkerStatus
 from service.process.data_folder import Disk
 
 ANSWER_WITHIN_S: Final = 1.5

@@ -12,11 +12,11 @@ import sqlalchemy as sa
 from service.api.app import create_app
 from service.api.server import ApiServer
 from service.blobs import BlobStore, setting_of_storage
-from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import JobEngine
-from service.engine.keys import KeyRing
-from service.engine.notices import NoticeRunner
-from service.engine.storage_identity import take_storage
+from service.jobs.database import open_database, prepare_database
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.keys import KeyRing
+from service.jobs.notices import NoticeRunner
+from service.jobs.storage_identity import take_storage
 from service.numerics.header_lane import header_lane
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import open_disk

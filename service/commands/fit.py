@@ -9,8 +9,15 @@ from api_schemas.fit import FitRequest
 from api_schemas.problems import field_problem
 from fitter.errors import ModelFileError
 from service.commands.terminal import Stages, print_problem, print_result
-from service.engine.port import Report
+from service.compute.files import with_result_document
+from service.compute.pipeline_port import (
+    PipelineInput,
+    PipelineOutput,
+    UnusableInputError,
+    load_pipeline,
+)
 from service.jobs.inputs import SentPicture
+from service.jobs.port import Report
 from service.process.caches import settle_folders
 from service.representation.csv_tables import TABLE, measurements_csv
 from service.representation.formats import GLB_ENDING
@@ -19,15 +26,8 @@ from service.submissions.detector import check_detector
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
-from service.worker.files import with_result_document
-from service.worker.pipeline_port import (
-    PipelineInput,
-    PipelineOutput,
-    UnusableInputError,
-    load_pipeline,
-)
 
-PIPELINE: Final = "service.worker.pipeline"
+PIPELINE: Final = "service.compute.pipeline"
 UNUSABLE_INPUT: Final = 2
 """Exit status if the input is at fault, as for wrong arguments."""
 

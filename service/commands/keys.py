@@ -3,8 +3,8 @@
 import sys
 from datetime import UTC, datetime
 
-from service.engine.database import open_database, prepare_database
-from service.engine.keys import KeyRing, Role
+from service.jobs.database import open_database, prepare_database
+from service.jobs.keys import KeyRing, Role
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
 

@@ -23,13 +23,13 @@ from fitter.reproduction.drawing import (
 from fitter.reproduction.panels import Figure
 from fitter.reproduction.subject import PosedTruth, Subject
 from service.commands.fit import UNUSABLE_INPUT, read_request, told
+from service.compute import translate
+from service.compute.pipeline_port import UnusableInputError
 from service.demo_data.sample import load_sample, load_subject
 from service.jobs.inputs import SentPicture
 from service.process.caches import settle_folders
 from service.settings import Settings
 from service.submissions.submission import check_submission
-from service.worker import translate
-from service.worker.pipeline_port import UnusableInputError
 
 _HIDING: Final = "occluded"
 """The subject's pose in which an arm hides part of the trunk."""

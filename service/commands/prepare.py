@@ -1,11 +1,11 @@
 """What API and workers expect to exist before they start: created by ``maquette prepare``."""
 
 from service.blobs import BlobStore, open_blob_store, setting_of_storage
-from service.engine.database import check_database, prepare_database
-from service.engine.storage_identity import check_storage, make_storage, take_storage
+from service.compute.models_reading import check_detector, check_models
+from service.jobs.database import check_database, prepare_database
+from service.jobs.storage_identity import check_storage, make_storage, take_storage
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
-from service.worker.models_reading import check_detector, check_models
 
 
 def prepare(settings: Settings, *, adopt_storage: bool = False) -> int:

@@ -18,7 +18,7 @@ from service.startup import UNUSABLE_SETTINGS
 
 LOG: Final = logging.getLogger(__name__)
 
-WORKER_COMMAND: Final = (*PYTHON, "-m", "service.worker")
+WORKER_COMMAND: Final = (*PYTHON, "-m", "service.compute")
 ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
 STOP_MARGIN_S: Final = 5.0
 """How much longer than its drain time a worker gets before it is killed."""

@@ -23,9 +23,9 @@ from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Gender, ViewKind
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
 from service.commands.fit import PIPELINE, UNUSABLE_INPUT, fitted, told
+from service.compute.pipeline_port import UnusableInputError
 from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError
-from service.worker.pipeline_port import UnusableInputError
 
 REPORT: Final = "validation.md"
 NULLS: Final = ((STATURE,), (STATURE, WEIGHT))

@@ -6,11 +6,11 @@ from typing import Final
 import sqlalchemy as sa
 
 from service.commands.api_health import unhealthy
-from service.engine.availability import available
-from service.engine.database import open_database
-from service.engine.liveness import WORKERS_SEEN, WorkerWatch, this_machine
-from service.engine.port import DatabaseUnusableError, EngineUnavailableError
-from service.engine.tables import UNABLE_WORKERS, WORKERS
+from service.jobs.availability import available
+from service.jobs.database import open_database
+from service.jobs.liveness import WORKERS_SEEN, WorkerWatch, this_machine
+from service.jobs.port import DatabaseUnusableError, EngineUnavailableError
+from service.jobs.tables import UNABLE_WORKERS, WORKERS
 from service.settings import Settings
 
 LATE_S: Final = 10.0

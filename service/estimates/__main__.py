@@ -5,8 +5,8 @@ They answer its questions at that address, and end with it.
 
 import sys
 
+from service.compute.main import run_estimators
 from service.startup import begin, run_told
-from service.worker.main import run_estimators
 
 if __name__ == "__main__":
     settings = begin("estimator")

@@ -18,6 +18,8 @@ from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
+from service.compute.pipeline_port import UnusableInputError
+from service.compute.translate import field_problem, known_measurements, person
 from service.estimates import translate
 from service.estimates.questions import (
     BodyTask,
@@ -29,8 +31,6 @@ from service.estimates.questions import (
 )
 from service.numerics.tasks import ProblemError
 from service.submissions.detector import no_detector
-from service.worker.pipeline_port import UnusableInputError
-from service.worker.translate import field_problem, known_measurements, person
 
 _TOO_MUCH_MEMORY = FieldProblem(
     field="image",

@@ -21,7 +21,7 @@ from fitter.request import View
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.points import PointName
-from service.worker.fit_results import (
+from service.compute.fit_results import (
     assumption_results,
     body_result,
     camera_result,
@@ -29,7 +29,7 @@ from service.worker.fit_results import (
     rounded_parameters,
     warning_results,
 )
-from service.worker.translate import SEEN, clicks
+from service.compute.translate import SEEN, clicks
 
 JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""

@@ -14,7 +14,7 @@ from service.settings import Settings
 from service.submissions.image_header import DamagedImageError, ImageHeader, ReadHeader, kind_of
 from service.submissions.refusal import RefusedError
 
-SECRETLESS: Final = "service.worker.secretless"
+SECRETLESS: Final = "service.compute.secretless"
 PRELOAD: Final = "service.numerics.preload"
 CHILD: Final = "service.numerics.header_child"
 

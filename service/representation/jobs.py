@@ -5,7 +5,7 @@ from typing import Final
 from uuid import UUID
 
 from api_schemas.jobs import Fit, FitLinks, JobState
-from service.engine.port import JobRecord
+from service.jobs.port import JobRecord
 from service.jobs.states import ACTIVE
 
 FITS: Final = "/v1/fits"

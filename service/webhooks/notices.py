@@ -16,7 +16,7 @@ import httpx
 from api_schemas.problems import FieldProblem
 from api_schemas.webhooks import WebhookEvent, WebhookEventType, WebhookTarget, secret_key
 from service.blobs import BlobMissingError, BlobStore
-from service.engine.port import JobRecord
+from service.jobs.port import JobRecord
 from service.process.logs import fields
 from service.representation.jobs import represent
 from service.settings import Settings

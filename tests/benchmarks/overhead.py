@@ -127,11 +127,11 @@ def _used(deployment: Deployment) -> list[float]:
 
 def _loop(answer: Connection) -> None:
     from api_schemas.fit import FitRequest
+    from service.compute import pipeline
+    from service.compute.files import with_result_document
+    from service.compute.pipeline_port import PipelineInput
     from service.jobs.inputs import SentPicture
     from service.submissions.submission import check_submission
-    from service.worker import pipeline
-    from service.worker.files import with_result_document
-    from service.worker.pipeline_port import PipelineInput
 
     while submissions := answer.recv():
         used, began = time.process_time(), time.monotonic()

@@ -62,7 +62,7 @@ def main(arguments: Sequence[str]) -> int:
 def _faults(options: argparse.Namespace, tasks: Sequence[Task]) -> int:
     folder = Path(tempfile.mkdtemp(prefix="maquette-chaos-"))
     # Kernels that were just compiled differ from the kept ones in the last digits of some results.
-    subprocess.run([sys.executable, "-m", "service.worker.kernels"], check=True)
+    subprocess.run([sys.executable, "-m", "service.compute.kernels"], check=True)
     expected = references(Deployment(folder=folder / "undisturbed"), tasks)
     status = 0
     for name in options.fault:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import sqlalchemy as sa
 
-from service.engine.database import open_database
-from service.engine.executions import Executions
-from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
-from service.engine.tables import ERASURES, JOBS
+from service.jobs.database import open_database
+from service.jobs.executions import Executions
+from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
+from service.jobs.tables import ERASURES, JOBS
 from tests.chaos.caller import ACTIVE, Caller
 from tests.chaos.examined import examine
 from tests.chaos.reference import Outcome

@@ -18,8 +18,8 @@ from PIL import Image
 
 import service.api
 from service.demo_data.sample import load_sample, load_views_sample
-from service.engine.database import open_database, prepare_database
-from service.engine.keys import KeyRing, Role
+from service.jobs.database import open_database, prepare_database
+from service.jobs.keys import KeyRing, Role
 from service.representation.jobs import FITS
 from service.settings import Settings
 from tests.contract.recorder import SHOWN, Recorder

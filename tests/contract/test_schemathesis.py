@@ -17,8 +17,8 @@ import pytest
 
 from service.api.authentication import OPEN
 from service.api.events import ITEMS
-from service.engine.database import open_database, prepare_database
-from service.engine.keys import KeyRing
+from service.jobs.database import open_database, prepare_database
+from service.jobs.keys import KeyRing
 from service.settings import Settings
 from tests.contract.acceptable import ACCEPTED, UPLOADED
 from tests.contract.document import METHODS, Document, media_types, operations, whole

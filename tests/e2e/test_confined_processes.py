@@ -15,7 +15,7 @@ from service.settings import PREFIX
 
 REPOSITORY = Path(__file__).parents[2]
 FORK_SERVER = b"multiprocessing.forkserver"
-WORKER = b"-m\0service.worker\0"
+WORKER = b"-m\0service.compute\0"
 BEGINS_WITHIN_S = 600.0
 
 

@@ -93,7 +93,7 @@ def test_neither_api_nor_worker_nor_their_forks_run_what_lies_there(folder: Fold
     for process in (
         f"{MAQUETTE} demo",
         "-m service.cli serve",
-        "-m service.worker",
+        "-m service.compute",
         "multiprocessing.forkserver",
         "multiprocessing.resource_tracker",
     ):

@@ -61,7 +61,7 @@ def installation(tmp_path_factory: pytest.TempPathFactory) -> Installation:
         place = made.packages / file.relative_to(REPOSITORY)
         place.parent.mkdir(exist_ok=True)
         shutil.copyfile(file, place)
-    done = made.run(made.python, "-m", "service.worker.kernels", cwd=folder)
+    done = made.run(made.python, "-m", "service.compute.kernels", cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return made
 

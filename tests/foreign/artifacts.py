@@ -13,12 +13,12 @@ from pathlib import Path
 
 from api_schemas.fit import FitRequest
 from api_schemas.products import ProductRequest
+from service.compute.files import with_result_document
+from service.compute.pipeline import make, run
+from service.compute.pipeline_port import PipelineInput, ProductInput
 from service.demo_data.sample import load_sample, load_views_sample
 from service.jobs.inputs import RESULT, SentPicture, named_pictures, product_inputs
 from service.submissions.submission import check_submission
-from service.worker.files import with_result_document
-from service.worker.pipeline import make, run
-from service.worker.pipeline_port import PipelineInput, ProductInput
 
 MAX_PIXELS = 2_000_000
 

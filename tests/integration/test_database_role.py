@@ -9,8 +9,8 @@ from pathlib import Path
 import psycopg
 import pytest
 
-from service.engine.database import check_database, open_database, prepare_database
-from service.engine.keys import KeyRing, Role
+from service.jobs.database import check_database, open_database, prepare_database
+from service.jobs.keys import KeyRing, Role
 from tests.postgres import server_folder
 
 SCRIPT = Path(__file__).parents[2] / "docker" / "database_role.sh"

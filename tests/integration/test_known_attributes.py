@@ -7,9 +7,9 @@ from fitter.fits.pipeline import fit
 from fitter.request import FitRequest, KnownMeasurement
 from fitter.result import FitResult, FitStage
 from fitter.vocabulary.choices import Cues
+from service.compute.translate import fit_request
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
-from service.worker.translate import fit_request
 from tests.one_picture import changed
 from tests.submissions import checked
 

@@ -19,7 +19,7 @@ from fitter.vocabulary.outcomes import Verdict
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()
 
-MAKERS = ("fitter/applications", "service/worker/products")
+MAKERS = ("fitter/applications", "service/compute/products")
 """Where products warn."""
 
 

@@ -23,6 +23,7 @@ from api_schemas.proposals import (
 from api_schemas.results import BodyResult, CameraResult, Finding, PartRotation
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
+from service.compute.pipeline_port import UnusableInputError
 from service.estimates.questions import (
     BodyTask,
     ConversionTask,
@@ -33,7 +34,6 @@ from service.estimates.questions import (
 )
 from service.numerics.tasks import ProblemError
 from service.submissions.detector import no_detector
-from service.worker.pipeline_port import UnusableInputError
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
 GLB = b"glTF" + bytes(range(256))

@@ -7,9 +7,9 @@ from pathlib import Path
 
 def main(estimates: str, questions_at: str) -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
+    from service.compute.main import run_estimators
     from service.process.logs import configure_logging
     from service.settings import Settings
-    from service.worker.main import run_estimators
     from tests.integration.service.fake_worker import ESTIMATES, FAKE_PRELOAD, FAKE_SECRETLESS
 
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])

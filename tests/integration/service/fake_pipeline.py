@@ -18,16 +18,16 @@ from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.problems import FieldProblem
 from api_schemas.products.base import ProductResult
 from fitter.vocabulary.choices import Gender
-from service.engine.port import Report
-from service.jobs.inputs import PERSON, SentPicture
-from service.worker.pipeline_port import (
+from service.compute.pipeline_port import (
     Made,
     PipelineInput,
     PipelineOutput,
     ProductInput,
     UnusableInputError,
 )
-from service.worker.tasks import job_tasks
+from service.compute.tasks import job_tasks
+from service.jobs.inputs import PERSON, SentPicture
+from service.jobs.port import Report
 from tests.integration.service.fake_products import made_product
 from tests.integration.service.fake_results import fit_result, result_files
 

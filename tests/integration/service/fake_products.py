@@ -7,8 +7,8 @@ from api_schemas.products.caricature import CaricatureOptions, CaricatureResult
 from api_schemas.products.composition import CompositionOptions, CompositionResult
 from api_schemas.products.pose import PoseOptions, PoseResult
 from api_schemas.products.texture import TextureColours, TextureOptions, TextureResult
+from service.compute.pipeline_port import Made, ProductInput, UnusableInputError
 from service.jobs.inputs import CLIP, TEXTURE
-from service.worker.pipeline_port import Made, ProductInput, UnusableInputError
 
 LARGEST_FACTOR = 6.0
 """Of a caricature."""

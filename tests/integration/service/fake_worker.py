@@ -14,7 +14,7 @@ FAKE = "tests.integration.service.fake_pipeline"
 ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.estimates.answers"}
 FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
-REAL_PRELOAD = "service.worker.preload"
+REAL_PRELOAD = "service.compute.preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
@@ -26,9 +26,9 @@ def stop_with_starter() -> None:
 
 def main(estimates: str = "broken", questions_at: str | None = None) -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
+    from service.compute.main import run_worker
     from service.process.logs import configure_logging
     from service.settings import Settings
-    from service.worker.main import run_worker
 
     # The processes that a worker starts look for nothing in the current folder.
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])

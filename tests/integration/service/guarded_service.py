@@ -8,8 +8,8 @@ import httpx
 import pytest
 import sqlalchemy as sa
 
-from service.engine.database import open_database, prepare_database
-from service.engine.keys import KeyRing
+from service.jobs.database import open_database, prepare_database
+from service.jobs.keys import KeyRing
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.harness import (
     Machine,

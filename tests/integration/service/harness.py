@@ -16,8 +16,8 @@ from typing import Any
 import httpx
 import sqlalchemy as sa
 
-from service.engine.database import open_database
-from service.engine.tables import JOBS
+from service.jobs.database import open_database
+from service.jobs.tables import JOBS
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.object_storage import variable
 

@@ -7,11 +7,11 @@ import pytest
 import sqlalchemy as sa
 
 from api_schemas.jobs import JobState
-from service.engine.attempts import AttemptLog
-from service.engine.claims import MAX_WORKER_DEATHS, Claims
-from service.engine.database import open_database, prepare_database
-from service.engine.records import find_job
-from service.engine.tables import JOBS
+from service.jobs.attempts import AttemptLog
+from service.jobs.claims import MAX_WORKER_DEATHS, Claims
+from service.jobs.database import open_database, prepare_database
+from service.jobs.records import find_job
+from service.jobs.tables import JOBS
 from tests.integration.service.harness import Machine
 from tests.stored_jobs import insert_job
 

@@ -11,13 +11,13 @@ import sqlalchemy as sa
 from sqlalchemy import event
 
 from api_schemas.jobs import JobState
-from service.engine.database import open_database
-from service.engine.dbos_jobs import JobEngine
-from service.engine.expiry import expire_jobs
-from service.engine.port import NewJob, StoredBlob, SubmitOutcome
-from service.engine.records import end_job, move_job
-from service.engine.tables import JOBS, TOMBSTONES
-from service.engine.transactions import read_then_write
+from service.jobs.database import open_database
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.expiry import expire_jobs
+from service.jobs.port import NewJob, StoredBlob, SubmitOutcome
+from service.jobs.records import end_job, move_job
+from service.jobs.tables import JOBS, TOMBSTONES
+from service.jobs.transactions import read_then_write
 from tests.integration.service.harness import Machine
 from tests.integration.service.test_images import engine_of
 

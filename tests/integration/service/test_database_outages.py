@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service.engine.port import FIT, NewJob, StoredBlob
+from service.jobs.port import FIT, NewJob, StoredBlob
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import Machine, running_service

@@ -8,8 +8,8 @@ import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer
 from sqlalchemy.exc import OperationalError
 
-from service.engine.database import open_database, prepare_database
-from service.engine.executions import APPLICATION, EXECUTION_VERSION, WORKFLOW, Executions, queue_of
+from service.jobs.database import open_database, prepare_database
+from service.jobs.executions import APPLICATION, EXECUTION_VERSION, WORKFLOW, Executions, queue_of
 from tests.integration.service.harness import PATIENCE_S, Machine
 
 NOBODY = "postgresql://postgres@127.0.0.1:1/none"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import pytest
 import sqlalchemy as sa
 
-from service.engine.database import open_database, prepare_database
-from service.engine.transactions import read_fact, write_fact
+from service.jobs.database import open_database, prepare_database
+from service.jobs.transactions import read_fact, write_fact
 from tests.integration.service.harness import PATIENCE_S, Machine
 
 FACT = "something"

@@ -10,7 +10,7 @@ from typing import Any
 from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, Fit
 from api_schemas.results import FitResult
-from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
+from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import STAGES, scripted_image
 from tests.integration.service.harness import (
     REQUEST,

@@ -11,11 +11,11 @@ from sqlalchemy import event
 from sqlalchemy.exc import OperationalError, SQLAlchemyError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.engine.claims import Claims
-from service.engine.database import open_database, prepare_database
-from service.engine.executions import Executions
-from service.engine.heartbeat import DROPPED_AFTER_S, Heartbeat
-from service.engine.worker_slots import WorkerSlots
+from service.jobs.claims import Claims
+from service.jobs.database import open_database, prepare_database
+from service.jobs.executions import Executions
+from service.jobs.heartbeat import DROPPED_AFTER_S, Heartbeat
+from service.jobs.worker_slots import WorkerSlots
 from tests.integration.service.harness import Machine, eventually
 from tests.stored_jobs import insert_job
 

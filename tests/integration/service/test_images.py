@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from api_schemas.images import UploadedImage
-from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import JobEngine
-from service.engine.images import NewImage
-from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
+from service.jobs.database import open_database, prepare_database
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.images import NewImage
+from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REQUEST,

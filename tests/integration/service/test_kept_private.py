@@ -8,7 +8,7 @@ import psycopg
 import pytest
 from psycopg import sql
 
-from service.engine.database import open_database, prepare_database
+from service.jobs.database import open_database, prepare_database
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
 from tests.integration.service.harness import (

@@ -5,8 +5,8 @@ from uuid import uuid4
 
 import pytest
 
-from service.engine.dbos_jobs import JobEngine
-from service.engine.port import FIT, NewJob, StoredBlob, SubmitOutcome
+from service.jobs.dbos_jobs import JobEngine
+from service.jobs.port import FIT, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service
 from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_images import engine_of

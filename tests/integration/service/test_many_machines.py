@@ -9,7 +9,7 @@ from pathlib import Path
 import psycopg
 import pytest
 
-from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
+from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REPOSITORY,

@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from api_schemas.products import Product
-from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
+from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     Machine,

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from service.engine.database import open_database
+from service.jobs.database import open_database
 from tests.integration.service.fake_preload import GATE
 from tests.integration.service.harness import Machine, Service, eventually, running_service
 

@@ -28,7 +28,7 @@ SECRET = "opensesame"
 
 SERVE = ("-m", "service.cli", "serve")
 WORKER = ("-m", "service.cli", "worker")
-CHILD_WORKER = ("-m", "service.worker", "ADDRESS")
+CHILD_WORKER = ("-m", "service.compute", "ADDRESS")
 PREPARE = ("-m", "service.cli", "prepare")
 KEYS = ("-m", "service.cli", "keys", "list")
 HEALTH = ("-m", "service.cli", "health")
@@ -227,7 +227,7 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
         "import os, pwd, sys\n"
         "from service.commands.prepare import run_preflight\n"
         "from service.startup import begin, run_told\n"
-        "import service.engine.port, sqlalchemy.exc\n"
+        "import service.jobs.port, sqlalchemy.exc\n"
         "settings = begin('serve')\n"
         "os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"
         "sys.exit(run_told('serve', lambda: run_preflight(settings)))\n"
@@ -257,7 +257,7 @@ def test_a_worker_that_cannot_run_as_set_up_stops_the_service(tmp_path: Path):
             lambda: [
                 each
                 for each in processes_with("MAQUETTE_DATA_DIR", machine.data_dir)
-                if "service.worker" in each.command and each.parent == process.pid
+                if "service.compute" in each.command and each.parent == process.pid
             ],
             what="a worker runs",
         )

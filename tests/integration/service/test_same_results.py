@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 import pytest
 
 from api_schemas.products import ProductRequest
-from service.engine.port import FIT
+from service.compute.tasks import OPTIONS, PRODUCT, STAGE_SECONDS
 from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
+from service.jobs.port import FIT
 from service.numerics.fork_server import Child, ForkServer
 from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
 from service.numerics.tasks import ChildSetup
-from service.worker.tasks import OPTIONS, PRODUCT, STAGE_SECONDS
 from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
 SETUP = ChildSetup(
     name="job",
-    tasks="service.worker.pipeline",
+    tasks="service.compute.pipeline",
     max_pixels=MAX_PIXELS,
     models=None,
     detector=None,
@@ -34,7 +34,7 @@ Job = tuple[str, dict[str, bytes]]
 
 @pytest.fixture(scope="module")
 def processes() -> ForkServer:
-    return ForkServer("service.worker.pipeline")
+    return ForkServer("service.compute.pipeline")
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import sqlalchemy as sa
 
 from service.blobs import StorageUnusableError
 from service.blobs.local import LocalBlobStore
-from service.engine.database import open_database, prepare_database
-from service.engine.storage_identity import STORAGE_FACT, check_storage, take_storage
-from service.engine.tables import FACTS
+from service.jobs.database import open_database, prepare_database
+from service.jobs.storage_identity import STORAGE_FACT, check_storage, take_storage
+from service.jobs.tables import FACTS
 from tests.integration.service.harness import Machine, running_service
 from tests.integration.service.test_refused_start import (
     PREPARE,

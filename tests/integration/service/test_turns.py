@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from service.engine.keys import KeyRing
-from service.engine.tables import JOBS
+from service.jobs.keys import KeyRing
+from service.jobs.tables import JOBS
 from tests.integration.service.guarded_service import Guarded, opened
 from tests.integration.service.harness import (
     Machine,

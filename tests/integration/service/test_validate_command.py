@@ -8,8 +8,8 @@ import pytest
 
 from service.cli import main
 from service.commands.validate import REPORT, validate
-from service.engine.port import Report
-from service.worker.pipeline_port import PipelineInput, PipelineOutput
+from service.compute.pipeline_port import PipelineInput, PipelineOutput
+from service.jobs.port import Report
 from tests.integration.service import fake_pipeline
 from tests.integration.service.fake_pipeline import scripted_image
 

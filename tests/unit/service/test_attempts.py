@@ -6,11 +6,11 @@ import sqlalchemy as sa
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import problem
 from api_schemas.results import ResultFile
-from service.engine.attempts import AttemptLog, Computed, computed_from_json, computed_to_json
-from service.engine.database import open_database
-from service.engine.port import AttemptResult, Directive, Ending, Report
-from service.engine.records import find_job
-from service.engine.tables import EVENTS, JOBS, METADATA
+from service.jobs.attempts import AttemptLog, Computed, computed_from_json, computed_to_json
+from service.jobs.database import open_database
+from service.jobs.port import AttemptResult, Directive, Ending, Report
+from service.jobs.records import find_job
+from service.jobs.tables import EVENTS, JOBS, METADATA
 from tests.stored_jobs import insert_job
 
 JOB = "00000000-0000-0000-0000-000000000001"

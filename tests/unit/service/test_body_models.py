@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from fitter.body.storage import packaged_model_path
+from service.compute.model_reader import describe
+from service.compute.models_reading import COMMAND, READINGS, ModelsBeingRead
 from service.settings import SettingError, Settings
-from service.worker.model_reader import describe
-from service.worker.models_reading import COMMAND, READINGS, ModelsBeingRead
 from tests.changed_models import packaged, save, without
 
 MODELS = packaged_model_path("female").parent

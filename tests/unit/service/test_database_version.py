@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from service.engine.database import check_database, open_database, prepare_database
-from service.engine.port import DatabaseUnusableError
+from service.jobs.database import check_database, open_database, prepare_database
+from service.jobs.port import DatabaseUnusableError
 
 
 def test_tables_of_another_version_are_refused(tmp_path: Path):

@@ -6,14 +6,14 @@ import pytest
 
 from api_schemas.fit import FitRequest
 from fitter.detection import weights
+from service.compute import pipeline
+from service.compute.models_reading import check_detector
+from service.compute.pipeline_port import PipelineInput, UnusableInputError
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions.detector import detector_is_installed
-from service.worker import pipeline
-from service.worker.models_reading import check_detector
-from service.worker.pipeline_port import PipelineInput, UnusableInputError
 
 
 def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):

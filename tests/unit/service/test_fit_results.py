@@ -18,7 +18,7 @@ from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Facing, LightKind, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource, Severity, StanceKind
-from service.worker.fit_results import fit_result
+from service.compute.fit_results import fit_result
 
 PARTS = ("pelvis", "spine")
 

@@ -2,9 +2,9 @@
 
 import json
 
+from service.compute.tasks import OPTIONS, fit_input, product_input
 from service.jobs.inputs import SentPicture, named_pictures, pictures_of
 from service.numerics.tasks import ChildSetup
-from service.worker.tasks import OPTIONS, fit_input, product_input
 
 SETUP = ChildSetup(
     name="job",

@@ -19,7 +19,7 @@ from pathlib import Path
 
 folder = Path(sys.argv[1])
 sys.path.append(str(folder))
-from service.worker import kernels
+from service.compute import kernels
 
 def fit_sample(detector):
     sys.modules.pop("_some_kernels", None)
@@ -115,7 +115,7 @@ def test_folders_are_called_as_numba_calls_them():
 def test_the_fork_server_has_no_threads_and_compiles_nothing_that_is_kept():
     program = (
         "import os\n"
-        "from service.worker.preload import OWN\n"
+        "from service.compute.preload import OWN\n"
         "compiled = [file for file in OWN.rglob('*.nb[ci]') if not file.is_symlink()]\n"
         "print(len(os.listdir('/proc/self/task')), len(compiled))\n"
     )

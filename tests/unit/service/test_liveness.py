@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from service.engine.liveness import WorkerWatch, this_process
+from service.jobs.liveness import WorkerWatch, this_process
 
 DEAD_AFTER_S = 10.0
 

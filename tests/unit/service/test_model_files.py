@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from service.compute import models_reading
+from service.compute.models_reading import PACKAGED, check_models
 from service.settings import SettingError, Settings
-from service.worker import models_reading
-from service.worker.models_reading import PACKAGED, check_models
 
 
 @pytest.fixture

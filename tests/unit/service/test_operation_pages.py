@@ -8,7 +8,7 @@ import pytest
 from service.api.acceptance import MAX_WAIT_S
 from service.api.events import PING_S
 from service.api.server import IDLE_S
-from service.engine.tables import METADATA
+from service.jobs.tables import METADATA
 from service.settings import PREFIX, Settings
 from tests.readme import block
 

@@ -11,10 +11,10 @@ from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.request import Click, FitRequest, KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Cues, Gender, OptimizerKind, ViewKind
-from service.engine.port import Report
+from service.compute import pipeline
+from service.compute.pipeline_port import PipelineInput, UnusableInputError
 from service.jobs.inputs import SentPicture
-from service.worker import pipeline
-from service.worker.pipeline_port import PipelineInput, UnusableInputError
+from service.jobs.port import Report
 
 PERSON: dict[str, Any] = {
     "gender": "female",

@@ -8,8 +8,8 @@ import pytest
 
 from api_schemas.products import AnyProductOptions, AnyProductResult, ProductRequest, product_id
 from api_schemas.products.base import ProductKind
-from service.worker.pipeline_port import Made
-from service.worker.products import maker_of
+from service.compute.pipeline_port import Made
+from service.compute.products import maker_of
 
 
 def told_apart(union: object) -> dict[str, Any]:
@@ -54,8 +54,8 @@ def test_an_id_is_of_the_options_as_understood_and_of_the_part():
 def test_a_process_for_fits_has_loaded_nothing_that_makes_products():
     """Every process forked for a fit would carry more along."""
     code = (
-        "import sys, service.numerics.child, service.worker.pipeline;"
-        "print([each for each in sys.modules if each.startswith('service.worker.products.')])"
+        "import sys, service.numerics.child, service.compute.pipeline;"
+        "print([each for each in sys.modules if each.startswith('service.compute.products.')])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
-    assert done.stdout.strip() == "['service.worker.products.finished_fit']"
+    assert done.stdout.strip() == "['service.compute.products.finished_fit']"

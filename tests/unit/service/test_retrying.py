@@ -3,9 +3,9 @@ from sqlalchemy.exc import OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.blobs import BlobsUnavailableError
-from service.engine.availability import retry_while_database_is_away
+from service.compute.job_runner import retry_while_storage_is_away
+from service.jobs.availability import retry_while_database_is_away
 from service.process import retrying
-from service.worker.job_runner import retry_while_storage_is_away
 
 STATEMENT = "UPDATE"
 

@@ -13,8 +13,8 @@ from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.vocabulary.choices import LightKind, PaperEnergy
 from fitter.vocabulary.points import POINT_NAMES
+from service.compute import translate
 from service.jobs.inputs import SentPicture
-from service.worker import translate
 
 PARTS = ("pelvis", "spine")
 
@@ -180,7 +180,7 @@ def test_what_the_caller_leaves_open_stays_open():
 
 
 def test_every_point_is_a_landmark_of_the_models():
-    from service.worker.model_reader import describe
+    from service.compute.model_reader import describe
 
     for model in describe(None).models:
         assert set(POINT_NAMES) <= set(model.landmarks)

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from service.engine.worker_slots import SETTLING_S, WorkerSlots
+from service.jobs.worker_slots import SETTLING_S, WorkerSlots
 
 LONG_S = 6_000.0
 PATIENCE_S = 600.0

@@ -15,9 +15,9 @@ from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Gender
+from service.compute.pipeline import make
+from service.compute.pipeline_port import Made, ProductInput
 from service.jobs.inputs import BODY, IMAGE, OVERLAY, PERSON, RESULT, SEGMENTATION, of_view
-from service.worker.pipeline import make
-from service.worker.pipeline_port import Made, ProductInput
 from tests.unit.service.fit_results import fit_result
 
 

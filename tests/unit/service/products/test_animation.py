@@ -7,8 +7,8 @@ import pytest
 
 from api_schemas.products.animation import NamedMotion
 from fitter.applications.named_motions import NAMED_MOTIONS
+from service.compute.pipeline_port import UnusableInputError
 from service.jobs.inputs import CLIP
-from service.worker.pipeline_port import UnusableInputError
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.products.samples import made
 

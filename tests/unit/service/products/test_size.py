@@ -10,8 +10,8 @@ from api_schemas.size_chart import EXAMPLE, ChartError, columns_of, read_chart
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender
+from service.compute.pipeline_port import UnusableInputError
 from service.jobs.inputs import CHART, PERSON, RESULT
-from service.worker.pipeline_port import UnusableInputError
 from tests.unit.service.fit_results import fit_result
 from tests.unit.service.products.samples import made, person
 

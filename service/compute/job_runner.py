@@ -1,0 +1,244 @@
+"""The worker's side of a job: find a child, listen, stop it in time, note how it ended."""
+
+import logging
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Final, ParamSpec, TypeVar
+
+from pydantic import ValidationError
+
+from api_schemas.results import ResultFile
+from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
+from service.compute.endings import (
+    ending_by,
+    fault,
+    input_gone,
+    no_process,
+    no_storage,
+    out_of_memory,
+    too_slow,
+)
+from service.compute.files import describe_file
+from service.compute.tasks import OPTIONS, PRODUCT, SECONDS, STAGE_SECONDS
+from service.jobs.port import (
+    FIT,
+    Attempt,
+    AttemptResult,
+    Directive,
+    Ending,
+    JobRecord,
+    Report,
+)
+from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
+from service.numerics.messages import (
+    DoneMessage,
+    FaultMessage,
+    ProblemMessage,
+    ProgressMessage,
+    Received,
+    TaskMessage,
+)
+from service.numerics.tasks import ChildSetup
+from service.process.logs import current_log_context
+from service.process.retrying import retry_with_pauses
+from service.settings import Settings
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+LOG: Final = logging.getLogger(__name__)
+
+CANCEL_POLL_S: Final = 0.1
+"""How often a running fit looks whether it was canceled."""
+
+WATCHDOG_S: Final = 1.0
+"""Beyond the time limit, a child that stalls in the middle of a message is killed from outside."""
+
+EXIT_S: Final = 1.0
+"""How long the exit code of a child that has closed its pipe is waited for."""
+
+STOPPED: Final = {
+    Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
+    Directive.SUPERSEDED: AttemptResult(ending=Ending.SUPERSEDED),
+}
+
+
+class JobRunner:
+    """Runs each attempt in a child of its own."""
+
+    def __init__(
+        self, settings: Settings, blobs: BlobStore, server: ForkServer, setup: ChildSetup
+    ) -> None:
+        self._settings = settings
+        self._blobs = blobs
+        self._server = server
+        self._setup = setup
+        self._crashes = CrashesInARow(server)
+
+    def run(self, attempt: Attempt) -> AttemptResult:
+        """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
+        try:
+            result = self._run(attempt)
+            self._crashes.note(crashed=result.ending is Ending.CRASHED)
+            return result
+        except BlobMissingError:
+            LOG.warning("The input of the job is gone.")
+            return AttemptResult(ending=Ending.FAILED, problem=input_gone())
+        except BlobsUnavailableError as error:
+            LOG.error("The storage did not come back (%s).", error)
+            return AttemptResult(ending=Ending.FAILED, problem=no_storage(error))
+        except NoProcessError as error:
+            LOG.error("No process can be started (%s).", error)
+            return AttemptResult(ending=Ending.FAILED, problem=no_process())
+
+    def _run(self, attempt: Attempt) -> AttemptResult:
+        deadline = time.monotonic() + self._settings.job_time_limit_s
+        child = self._server.start_child(self._setup)
+        try:
+            computed = self._compute(child, attempt, deadline)
+        finally:
+            child.end()
+        if isinstance(computed, AttemptResult):
+            return computed
+        attempt.leave_slot()
+        directive = attempt.directive()
+        if directive is not Directive.CONTINUE:
+            return STOPPED[directive]
+        return AttemptResult(
+            ending=Ending.SUCCEEDED,
+            files=self._store(attempt.job.scope, computed.files),
+            stage_seconds=computed.stage_seconds,
+        )
+
+    def _compute(
+        self, child: Child, attempt: Attempt, deadline: float
+    ) -> "_Computed | AttemptResult":
+        try:
+            with (
+                child.killed_in_time(deadline - time.monotonic() + WATCHDOG_S),
+            ):
+                self._give(child, attempt.job)
+                return self._follow(attempt, child, deadline=deadline)
+        except (EOFError, OSError, ValidationError):
+            # The pipe broke, or what came through it was no message of ours.
+            if time.monotonic() >= deadline:
+                return self._timed_out()
+            LOG.warning("The process of the job died, exit code %s.", child.exit_code(EXIT_S))
+            return AttemptResult(ending=Ending.CRASHED)
+
+    def _give(self, child: Child, job: JobRecord) -> None:
+        stored = {OPTIONS: job.options, **job.inputs}
+        task = TaskMessage(
+            task=FIT if job.parent is None else PRODUCT,
+            parts=tuple(stored),
+            log_context=dict(current_log_context()),
+        )
+        read = retry_while_storage_is_away(self._blobs.get)
+        # One after the other, and sent at once: together they may be large.
+        child.give(task, (read(job.scope, part.digest) for part in stored.values()))
+
+    def _timed_out(self) -> AttemptResult:
+        return AttemptResult(
+            ending=Ending.TIMED_OUT, problem=too_slow(self._settings.job_time_limit_s)
+        )
+
+    def _follow(
+        self, attempt: Attempt, child: Child, *, deadline: float
+    ) -> "_Computed | AttemptResult":
+        progress = ThrottledProgress(attempt)
+        next_look = 0.0
+        while True:
+            received = child.receive(CANCEL_POLL_S)
+            if received is not None:
+                if not isinstance(received.message, ProgressMessage):
+                    return _ended(received)
+                progress.take(received.message)
+            directive = progress.store_if_due()
+            now = time.monotonic()
+            if now >= deadline:
+                return self._timed_out()
+            if directive is None and now >= next_look:
+                directive = attempt.directive()
+            if directive is not None:
+                next_look = now + CANCEL_POLL_S
+                if directive is not Directive.CONTINUE:
+                    return STOPPED[directive]
+
+    def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[ResultFile, ...]:
+        put_all = retry_while_storage_is_away(self._blobs.put_all)
+        digests = put_all(scope, list(files.values()))
+        return tuple(
+            describe_file(name, content, digest=digest)
+            for (name, content), digest in zip(files.items(), digests, strict=True)
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Computed:
+    """A result that has yet to be stored."""
+
+    files: Mapping[str, bytes]
+    stage_seconds: Mapping[str, float]
+
+
+def _ended(received: Received) -> _Computed | AttemptResult:
+    match received.message:
+        case DoneMessage():
+            files = dict(received.parts)
+            seconds = SECONDS.validate_json(files.pop(STAGE_SECONDS, b"{}"))
+            return _Computed(files=files, stage_seconds=seconds)
+        case ProblemMessage(problem=reason):
+            return AttemptResult(ending=ending_by(reason), problem=reason)
+        case FaultMessage(out_of_memory=True):
+            return AttemptResult(ending=Ending.FAILED, problem=out_of_memory())
+        case FaultMessage():
+            return AttemptResult(ending=Ending.FAILED, problem=fault())
+        case _:
+            message = f"a child sent a message of kind {received.message.kind}"
+            raise OSError(message)
+
+
+def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
+    """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
+    return retry_with_pauses(BlobsUnavailableError, "storage")(operation)
+
+
+INTERVAL_S: Final = 0.2
+"""The shortest time between two stored reports of one stage."""
+
+
+class ThrottledProgress:
+    """Keeps the latest report back until the last stored one is old enough."""
+
+    def __init__(self, attempt: Attempt) -> None:
+        self._attempt = attempt
+        self._due = 0.0
+        self._news: tuple[str, int | None] | None = None
+        self._latest: ProgressMessage | None = None
+
+    def take(self, message: ProgressMessage) -> None:
+        """Take a report that came."""
+        news = (message.stage, message.view)
+        if news != self._news:
+            # A new stage, or the next picture, is news: it does not wait.
+            self._news = news
+            self._due = 0.0
+        self._latest = message
+
+    def store_if_due(self) -> Directive | None:
+        """Store the latest report, if there is one and it is time; then say whether to go on."""
+        now = time.monotonic()
+        if self._latest is None or now < self._due:
+            return None
+        directive = self._attempt.report(
+            Report(
+                stage=self._latest.stage,
+                progress=min(max(self._latest.progress, 0.0), 1.0),
+                energies=self._latest.energies,
+                view=self._latest.view,
+            )
+        )
+        self._latest = None
+        self._due = now + INTERVAL_S
+        return directive

@@ -1,0 +1,59 @@
+"""The fitted body in motion: from a BVH file sent with the request, or by name."""
+
+from api_schemas.products.animation import AnimationOptions, AnimationResult
+from api_schemas.products.base import BodyColours
+from api_schemas.results import FitWarning
+from fitter.applications.animation import (
+    ChosenMotion,
+    animate,
+    motion_of_clip,
+    motion_of_name,
+)
+from fitter.applications.motion_file import read_motion
+from fitter.applications.rig import Rig, rig_of
+from service.compute.pipeline_port import Made
+from service.compute.products import Report
+from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.pictured_body import texture_files, texture_for
+from service.jobs.inputs import CLIP
+
+
+def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[AnimationResult]:
+    """Set the body in motion; see :class:`service.compute.products.Maker`."""
+    person, evaluator = fit.person, fit.operators.evaluator
+    rig = rig_of(evaluator.model, person.body.shape)
+    chosen = _chosen(fit.files.get(CLIP), options, rig)
+    report(0.1)
+    texture = texture_for(options.colours, fit)
+    report(0.2)
+    made = animate(person, evaluator, chosen.motion, texture=texture)
+    return Made(
+        result=AnimationResult(
+            colours=BodyColours.PLAIN if texture is None else options.colours,
+            motion=None if CLIP in fit.files else options.motion,
+            source=chosen.source,
+            up=chosen.up,
+            frames=made.frames,
+            frame_time_s=made.frame_time_s,
+            morph_targets=made.morph_targets,
+            morph_mean_error_mm=made.morph_mean_error_mm,
+            morph_largest_error_mm=made.morph_largest_error_mm,
+            skin_mean_error_mm=made.skin_mean_error_mm,
+            skin_largest_error_mm=made.skin_largest_error_mm,
+            sliding_mm=made.sliding_mm,
+            travelled_m=made.travelled_m,
+            warnings=tuple(
+                FitWarning(code=each.code, message=each.message) for each in chosen.warnings
+            ),
+        ),
+        files=dict(made.files) | texture_files(texture),
+    )
+
+
+def _chosen(clip: bytes | None, options: AnimationOptions, rig: Rig) -> ChosenMotion:
+    if clip is None:
+        return motion_of_name(
+            rig, options.motion, start_s=options.start_s, duration_s=options.duration_s
+        )
+    source = read_motion(clip, named=options.joints, start_s=options.start_s)
+    return motion_of_clip(source, rig, duration_s=options.duration_s, up=options.up)

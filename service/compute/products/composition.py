@@ -1,0 +1,34 @@
+"""Body-fat share by published regressions."""
+
+from api_schemas.products.composition import (
+    BodyFatEstimate,
+    CompositionOptions,
+    CompositionResult,
+)
+from fitter.applications.body_fat import body_fat, body_mass_index
+from service.compute.pipeline_port import Made
+from service.compute.products import Report
+from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.measured import measured
+from service.representation.csv_tables import models_csv
+
+
+def make(fit: FinishedFit, options: CompositionOptions, report: Report) -> Made[CompositionResult]:
+    """Estimate; see :class:`service.compute.products.Maker`."""
+    person = measured(fit)
+    report(0.5)
+    estimates = tuple(
+        BodyFatEstimate(
+            name=each.regression.name,
+            source=each.regression.source,
+            population=each.regression.population,
+            percent=each.percent,
+            standard_error=each.standard_error,
+            withheld=each.withheld,
+        )
+        for each in body_fat(person, fit.person.gender, options.age_years)
+    )
+    return Made(
+        result=CompositionResult(bmi=round(body_mass_index(person), 2), estimates=estimates),
+        files={"composition.csv": models_csv(estimates, BodyFatEstimate.model_fields)},
+    )

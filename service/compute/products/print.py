@@ -1,0 +1,153 @@
+"""A page to print: one HTML file with its pictures in it, and no scripts."""
+
+import base64
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Final
+
+import cv2
+import numpy as np
+
+from api_schemas.products.print import PrintOptions, PrintResult
+from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
+from fitter.vocabulary.measurements import CHIEF
+from service.compute.pipeline_port import Made
+from service.compute.products import Report
+from service.compute.products.finished_fit import FinishedFit
+from service.jobs.inputs import BODY, OVERLAY, RESULT, of_view
+
+PICTURE_HEIGHT_PX: Final = 900
+JPEG_QUALITY: Final = 85
+
+_STYLE: Final = """
+@page { size: A4; margin: 14mm; }
+body { margin: 0 auto; max-width: 860px; padding: 20px; background: #fff; color: #1c1c1c;
+  font: 12px/1.4 "IBM Plex Sans", "Helvetica Neue", Arial, sans-serif; }
+h1 { font-size: 20px; margin: 0; }
+h2 { font-size: 13px; margin: 14px 0 4px; }
+p { margin: 2px 0 8px; }
+.pictures { display: flex; gap: 10px; align-items: flex-end; }
+figure { margin: 0; flex: 1 1 0; min-width: 0; }
+img { display: block; max-height: 88mm; max-width: 100%; }
+figcaption, .taken, footer { color: #555; font-size: 10px; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+td, th { border-bottom: 1px solid #ddd; padding: 2px 8px 2px 0; text-align: left;
+  vertical-align: top; }
+.number { text-align: right; white-space: nowrap; }
+tr, figure, li { break-inside: avoid; }
+ul { margin: 0; padding-left: 16px; }
+"""
+
+_EXPLAINED: Final = (
+    "95 % of true values lie in the range. A value without a range was given and is held."
+)
+
+
+def make(fit: FinishedFit, options: PrintOptions, report: Report) -> Made[PrintResult]:
+    """Write the page; see :class:`service.compute.products.Maker`."""
+    del options
+    result = FitResult.model_validate_json(fit.files[RESULT])
+    report(0.2)
+    names = (*(of_view(number, OVERLAY) for number in range(len(result.views))), BODY)
+    pictures = {name: _jpeg(fit.files[name]) for name in names if name in fit.files}
+    return Made(result=PrintResult(), files={"print.html": _page(result, pictures).encode()})
+
+
+def _jpeg(picture: bytes) -> bytes:
+    """The picture as tall as a page shows it at most."""
+    pixels = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR)
+    assert pixels is not None
+    height, width = pixels.shape[:2]
+    if height > PICTURE_HEIGHT_PX:
+        size = (max(round(width * PICTURE_HEIGHT_PX / height), 1), PICTURE_HEIGHT_PX)
+        pixels = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
+    _, encoded = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    return encoded.tobytes()
+
+
+def _page(result: FitResult, pictures: dict[str, bytes]) -> str:
+    shown = "".join(
+        _figure(picture, "The body found" if name == BODY else f"Picture {number}")
+        for number, (name, picture) in enumerate(pictures.items(), start=1)
+    )
+    count = len(result.views)
+    found = f"{result.gender.value}, {100.0 * result.height_m:.1f} cm tall, from " + (
+        "one picture" if count == 1 else f"{count} pictures"
+    )
+    return f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Body measurements</title>
+<style>{_STYLE}</style>
+</head>
+<body>
+<h1>Body measurements</h1>
+<p>{escape(found)}</p>
+<div class="pictures">{shown}</div>
+{_measurements(result)}
+{_remarks(result)}
+<footer>Measured by Maquette after Guan et al., Estimating human shape and pose from a single image
+(ICCV 2009).</footer>
+</body>
+</html>
+"""
+
+
+def _figure(picture: bytes, caption: str) -> str:
+    encoded = base64.b64encode(picture).decode()
+    return (
+        f'<figure><img alt="{escape(caption)}" src="data:image/jpeg;base64,{encoded}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
+    )
+
+
+def _measurements(result: FitResult) -> str:
+    """A table, the chief measurements first; why there is none where they are withheld."""
+    if not result.measurements:
+        return f"<p><b>The measurements are withheld.</b> {escape(result.outcome_explanation)}</p>"
+    by_name = {each.name: each for each in result.measurements}
+    chief = [by_name[name] for name in CHIEF if name in by_name]
+    others = [each for each in result.measurements if each.name not in CHIEF]
+    return _table("Measurements", chief) + f"<p>{_EXPLAINED}</p>" + _table("More", others)
+
+
+def _table(title: str, measurements: Sequence[Measurement]) -> str:
+    rows = "".join(map(_row, measurements))
+    return (
+        f"<h2>{escape(title)}</h2><table><thead><tr><th>What</th><th class='number'>Value</th>"
+        f"<th class='number'>Range</th><th>How it is taken</th></tr></thead>{rows}</table>"
+    )
+
+
+def _row(each: Measurement) -> str:
+    is_exact = each.low is None or each.high is None or each.low == each.high
+    interval = "given" if is_exact and each.given else ""
+    if not is_exact:
+        interval = f"{each.low:.1f} to {each.high:.1f}"
+    return (
+        f"<tr><th>{escape(each.name.replace('_', ' '))}</th>"
+        f"<td class='number'>{each.value:.1f} {escape(each.unit)}</td>"
+        f"<td class='number'>{interval}</td><td class='taken'>{escape(each.definition)}</td></tr>"
+    )
+
+
+def _remarks(result: FitResult) -> str:
+    """What was assumed, and what is to be looked at, of the fit and of each picture."""
+    said = [*_of(result.assumptions, result.warnings)]
+    for number, view in enumerate(result.views, start=1):
+        findings = [f"{each.reason} {each.remedy}" for each in view.findings]
+        of_view_alone = [*findings, *_of(view.assumptions, view.warnings)]
+        where = f"Picture {number}: " if len(result.views) > 1 else ""
+        said += [f"{where}{each}" for each in of_view_alone]
+    items = "".join(f"<li>{escape(each)}</li>" for each in dict.fromkeys(said))
+    return f"<h2>Remarks</h2><ul>{items}</ul>" if items else ""
+
+
+def _of(assumptions: Iterable[Assumption], warnings: Iterable[FitWarning]) -> Iterable[str]:
+    for each in assumptions:
+        value = f"{each.value:g}" if isinstance(each.value, float) else each.value
+        yield f"Assumed: {each.quantity.replace('_', ' ')} {value}. {each.reason}"
+    for each in warnings:
+        yield each.message

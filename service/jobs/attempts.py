@@ -1,0 +1,312 @@
+"""The worker's access to a job's record: begin an attempt, report, end it.
+
+Every write names the attempt it belongs to. A worker that was taken for dead and wakes up again
+finds that its attempt is no longer the current one, and none of its writes have any effect.
+"""
+
+import json
+import logging
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import sqlalchemy as sa
+
+from api_schemas.jobs import EventKind, JobState
+from api_schemas.problems import Problem, problem
+from service.jobs.availability import ABSENCES, retry_while_database_is_away
+from service.jobs.notices import Notices
+from service.jobs.port import AttemptResult, Directive, Ending, JobRecord, Report
+from service.jobs.records import (
+    FILES,
+    append_event,
+    end_job,
+    find_job,
+    job_record,
+    move_job,
+)
+from service.jobs.statistics import count_durations
+from service.jobs.tables import JOBS, WORKERS
+from service.process.retrying import LONGEST_PAUSE_S
+
+LOG: Final = logging.getLogger(__name__)
+
+FINAL_STATES: Final = {
+    Ending.SUCCEEDED: JobState.SUCCEEDED,
+    Ending.FAILED: JobState.FAILED,
+    Ending.CANCELED: JobState.CANCELED,
+    Ending.TIMED_OUT: JobState.TIMED_OUT,
+}
+
+
+_CURRENT: Final = (
+    JOBS.c.id == sa.bindparam("job"),
+    JOBS.c.state == JobState.RUNNING.value,
+    JOBS.c.attempt == sa.bindparam("of_attempt"),
+)
+# Written out once: putting a statement together takes longer than executing it, and these are
+# executed all the time a fit runs.
+_CANCEL_REQUESTED: Final = sa.select(JOBS.c.cancel_requested).where(*_CURRENT)
+_SHARE: Final = sa.bindparam("share", type_=JOBS.c.progress.type)
+_REPORT: Final = (
+    sa.update(JOBS)
+    .where(*_CURRENT)
+    .values(
+        stage=sa.bindparam("its_stage", type_=JOBS.c.stage.type),
+        view=sa.bindparam("its_view", type_=JOBS.c.view.type),
+        progress=sa.case((JOBS.c.progress > _SHARE, JOBS.c.progress), else_=_SHARE),
+        last_event=JOBS.c.last_event + 1,
+    )
+    .returning(JOBS)
+)
+_TOUCH: Final = (
+    sa.update(WORKERS)
+    .where(WORKERS.c.executor_id == sa.bindparam("worker"))
+    .values(pid=WORKERS.c.pid)
+)
+_COUNT_CRASH: Final = sa.update(JOBS).where(*_CURRENT).values(crashes=JOBS.c.crashes + 1)
+
+
+def given_up(reason: str) -> Problem:
+    """Say that a job was given up because it kills the processes that run it."""
+    return problem(
+        "fit-crashed",
+        detail=reason,
+        remedy="Save the picture anew as PNG and try again; if that fails too, report it.",
+    )
+
+
+class RecordedAttempt:
+    """The attempt a worker is running; see :class:`service.jobs.port.Attempt`."""
+
+    def __init__(
+        self, database: sa.Engine, job: JobRecord, *, leave_slot: Callable[[str], None]
+    ) -> None:
+        self._database = database
+        self._job = job
+        self._leave_slot = leave_slot
+
+    @property
+    def job(self) -> JobRecord:
+        """The job as it was when the attempt began."""
+        return self._job
+
+    @retry_while_database_is_away
+    def report(self, report: Report) -> Directive:
+        """Store progress and its event; the share never decreases."""
+        with self._database.begin() as connection:
+            values = {
+                "its_stage": report.stage,
+                "its_view": report.view,
+                "share": report.progress,
+            }
+            row = connection.execute(_REPORT, _current(self._job) | values).mappings().one_or_none()
+            if row is None:
+                return Directive.SUPERSEDED
+            job = job_record(row)
+            append_event(connection, job, EventKind.PROGRESS, report.energies)
+        return Directive.CANCELED if job.cancel_requested else Directive.CONTINUE
+
+    @retry_while_database_is_away
+    def directive(self) -> Directive:
+        """Ask whether the attempt is still wanted."""
+        with self._database.connect() as connection:
+            cancel_requested = connection.execute(
+                _CANCEL_REQUESTED, _current(self._job)
+            ).scalar_one_or_none()
+        if cancel_requested is None:
+            return Directive.SUPERSEDED
+        return Directive.CANCELED if cancel_requested else Directive.CONTINUE
+
+    def leave_slot(self) -> None:
+        """Let another job begin, while this one's result is stored."""
+        self._leave_slot(self._job.id)
+
+
+def _current(job: JobRecord) -> dict[str, object]:
+    return {"job": job.id, "of_attempt": job.attempt}
+
+
+class AttemptLog:
+    """Begin and end attempts on behalf of one worker."""
+
+    def __init__(
+        self,
+        database: sa.Engine,
+        *,
+        executor_id: str,
+        max_crashes: int,
+        retention_s: float,
+        leave_slot: Callable[[str], None],
+    ) -> None:
+        self._database = database
+        self._executor_id = executor_id
+        self._max_crashes = max_crashes
+        self._retention_s = retention_s
+        self._notices = Notices(database)
+        self._leave_slot = leave_slot
+
+    @retry_while_database_is_away
+    def begin(self, job_id: str) -> RecordedAttempt | None:
+        """Claim the next attempt; None if there is nothing (more) to do for this job."""
+        with self._database.begin() as connection:
+            job = move_job(
+                connection,
+                job_id,
+                JOBS.c.cancel_requested.is_(False),
+                JOBS.c.crashes < self._max_crashes,
+                state=JobState.RUNNING,
+                values={
+                    "attempt": JOBS.c.attempt + 1,
+                    "claimed_by": self._executor_id,
+                    "stage": None,
+                    "view": None,
+                    "progress": 0.0,
+                },
+            )
+            if job is None:
+                self._end_unbegun(connection, job_id)
+                return None
+        return RecordedAttempt(self._database, job, leave_slot=self._leave_slot)
+
+    def _end_unbegun(self, connection: sa.Connection, job_id: str) -> None:
+        """End a job that is not to be begun, unless it has ended."""
+        canceled = end_job(
+            connection,
+            job_id,
+            JOBS.c.cancel_requested.is_(True),
+            state=JobState.CANCELED,
+            retention_s=self._retention_s,
+            notify=self._notices.enqueue,
+        )
+        if canceled is None:
+            reason = given_up(f"The process of this job died {self._max_crashes} times.")
+            end_job(
+                connection,
+                job_id,
+                JOBS.c.crashes >= self._max_crashes,
+                state=JobState.FAILED,
+                retention_s=self._retention_s,
+                notify=self._notices.enqueue,
+                values={"problem": reason.model_dump_json()},
+            )
+
+    @retry_while_database_is_away
+    def count_crash(self, attempt: RecordedAttempt) -> None:
+        """Note that the process of this attempt died without being killed by us."""
+        with self._database.begin() as connection:
+            connection.execute(_COUNT_CRASH, _current(attempt.job))
+
+    @retry_while_database_is_away
+    def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:
+        """Publish the result; None if the attempt was superseded or the job erased."""
+        state = FINAL_STATES[result.ending]
+        with self._database.begin() as connection:
+            ended = end_job(
+                connection,
+                job_id,
+                JOBS.c.attempt == attempt,
+                state=state,
+                retention_s=self._retention_s,
+                notify=self._notices.enqueue,
+                values={
+                    "files": FILES.dump_json(result.files).decode(),
+                    "problem": result.problem.model_dump_json() if result.problem else None,
+                }
+                | ({"progress": 1.0} if state is JobState.SUCCEEDED else {}),
+            )
+            if ended is not None:
+                count_durations(
+                    connection,
+                    {f"stage.{stage}": lasted for stage, lasted in result.stage_seconds.items()},
+                )
+            return ended
+
+    def await_database(self) -> None:
+        """Return once the database takes writes.
+
+        DBOS repeats its own writes after pauses that double up to a minute and a half: what it is
+        given to write while the database is away or full stands still for long afterwards.
+        """
+        while True:
+            try:
+                with self._database.begin() as connection:
+                    connection.execute(_TOUCH, {"worker": self._executor_id})
+                    return
+            except ABSENCES as error:
+                LOG.warning(
+                    "The database is not available (%s); waiting.", getattr(error, "orig", error)
+                )
+            time.sleep(LONGEST_PAUSE_S)
+
+    @retry_while_database_is_away
+    def exists(self, job_id: str) -> bool:
+        """Whether the job still exists, not having been erased."""
+        with self._database.connect() as connection:
+            return find_job(connection, job_id) is not None
+
+    @retry_while_database_is_away
+    def hand_back(self) -> None:
+        """Let this worker's jobs wait again, as if they had not been begun."""
+        with self._database.begin() as connection:
+            ids = connection.execute(
+                sa.select(JOBS.c.id).where(
+                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.RUNNING.value
+                )
+            ).scalars()
+            for job_id in list(ids):
+                move_job(
+                    connection,
+                    job_id,
+                    JOBS.c.claimed_by == self._executor_id,
+                    state=JobState.QUEUED,
+                    values={"claimed_by": None, "stage": None, "view": None, "progress": 0.0},
+                )
+            # Those that were claimed and have not begun.
+            connection.execute(
+                sa.update(JOBS)
+                .where(
+                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.QUEUED.value
+                )
+                .values(claimed_by=None)
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Computed:
+    """A result that has yet to be published: of which attempt, and where its files lie."""
+
+    attempt: int
+    scope: str
+    result: AttemptResult
+
+
+def computed_to_json(job: JobRecord, result: AttemptResult) -> str:
+    """Write the result of a job's attempt in the form kept in the checkpoint."""
+    return json.dumps(
+        {
+            "attempt": job.attempt,
+            "scope": job.scope,
+            "ending": result.ending.value,
+            "files": FILES.dump_python(result.files, mode="json"),
+            "problem": result.problem.model_dump(mode="json") if result.problem else None,
+            "stage_seconds": dict(result.stage_seconds),
+        }
+    )
+
+
+def computed_from_json(text: str) -> Computed:
+    """Read a checkpoint."""
+    values = json.loads(text)
+    told = values["problem"]
+    return Computed(
+        attempt=values["attempt"],
+        scope=values["scope"],
+        result=AttemptResult(
+            ending=Ending(values["ending"]),
+            files=FILES.validate_json(json.dumps(values["files"])),
+            problem=None if told is None else Problem.model_validate_json(json.dumps(told)),
+            stage_seconds=values["stage_seconds"],
+        ),
+    )

@@ -1,0 +1,214 @@
+"""Open and prepare the database: SQLite in WAL mode, or Postgres."""
+
+import contextlib
+import sqlite3
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import sqlalchemy as sa
+from sqlalchemy import event
+from sqlalchemy.exc import ArgumentError, DBAPIError
+
+from service.jobs.availability import refusal, retry_while_database_is_away
+from service.jobs.port import DatabaseUnusableError
+from service.jobs.tables import JOBS, METADATA
+from service.jobs.transactions import read_fact, read_then_write, write_fact
+from service.process.data_folder import (
+    database_files,
+    make_private_file,
+    make_private_folder,
+    tighten,
+)
+from service.setting_types import without_secrets
+
+MIGRATION_LOCK: Final = 0x6D617175
+"""Key of the Postgres advisory lock held while tables are created and facts are settled."""
+
+SCHEMA_VERSION: Final = "8"
+SCHEMA_FACT: Final = "schema_version"
+
+POSTGRES_CONNECTION: Final = {
+    "connect_timeout": 5,
+    # A database host that vanishes silently is noticed within seconds, not hours.
+    "keepalives_idle": 10,
+    "keepalives_interval": 5,
+    "keepalives_count": 3,
+    "tcp_user_timeout": 15_000,
+}
+
+
+def open_database(url: str, *, connections: int = 20) -> sa.Engine:
+    """Open a pool of at most ``connections``; creates only the folder of an SQLite file.
+
+    Statements are logged without their parameters, so that no caller's data gets into a log.
+    """
+    parsed = sa.make_url(url)
+    if parsed.get_backend_name() == "sqlite":
+        check_sqlite_version()
+        secure_file(Path(parsed.database or ""))
+        engine = sa.create_engine(
+            parsed,
+            pool_size=connections,
+            max_overflow=0,
+            pool_timeout=30,
+            hide_parameters=True,
+        )
+        event.listen(engine, "connect", configure_connection)
+        return engine
+    return sa.create_engine(
+        parsed.set(drivername="postgresql+psycopg"),
+        pool_size=connections,
+        max_overflow=0,
+        pool_timeout=30,
+        pool_pre_ping=True,
+        hide_parameters=True,
+        connect_args={
+            name: value for name, value in POSTGRES_CONNECTION.items() if name not in parsed.query
+        },
+    )
+
+
+@retry_while_database_is_away
+def check_database(url: str) -> None:
+    """Check that the database answers and has no tables of another version.
+
+    Waits for a database that does not answer.
+
+    Raises
+    ------
+    DatabaseUnusableError
+        If it answers but cannot be used as it is.
+    """
+    with opened(url) as engine:
+        _check_schema(engine)
+
+
+@retry_while_database_is_away
+def prepare_database(url: str) -> None:
+    """Create all tables; safe to run in several processes at once.
+
+    Waits and raises as :func:`check_database` does.
+    """
+    # Imported here because it takes half a second to load.
+    from dbos import DBOS
+
+    with opened(url) as engine:
+        _check_schema(engine)
+        if engine.dialect.name == "sqlite":
+            prepare_file(engine)
+        DBOS.migrate(url)
+        with locked(engine) as connection:
+            METADATA.create_all(connection)
+            write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
+
+
+@contextlib.contextmanager
+def locked(engine: sa.Engine) -> Iterator[sa.Connection]:
+    """Begin a transaction that no other process can be in at the same time."""
+    with read_then_write(engine) as connection:
+        if engine.dialect.name == "postgresql":
+            connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
+        yield connection
+
+
+@contextlib.contextmanager
+def opened(url: str) -> Iterator[sa.Engine]:
+    """Open the database briefly; errors that waiting cannot cure name its address."""
+    try:
+        engine = open_database(url, connections=2)
+    except ArgumentError as error:
+        raise _unusable(url, "it cannot be read") from error
+    try:
+        yield engine
+    except DBAPIError as error:
+        reason = refusal(error)
+        if reason is None:
+            raise
+        raise _unusable(url, reason) from error
+    finally:
+        engine.dispose()
+
+
+def _unusable(url: str, reason: str) -> DatabaseUnusableError:
+    if url.startswith("sqlite"):
+        file = Path(url.partition("///")[2])
+        return DatabaseUnusableError(
+            f"MAQUETTE_DATA_DIR={file.parent}: its {file.name} cannot be used ({reason}); put a "
+            "copy back that can be, let the user that runs the service own it, or choose another "
+            "folder"
+        )
+    return DatabaseUnusableError(
+        f"MAQUETTE_DATABASE_URL={without_secrets(url)}: the database cannot be used ({reason}); "
+        "correct address, name, user or password, or have the database made and its rights given"
+    )
+
+
+def _check_schema(engine: sa.Engine) -> None:
+    if not sa.inspect(engine).has_table(JOBS.name):
+        return
+    with engine.connect() as connection:
+        found = read_fact(connection, SCHEMA_FACT)
+    if found != SCHEMA_VERSION:
+        message = (
+            f"The database was made by another version of Maquette (tables {found or '1'}, here "
+            f"{SCHEMA_VERSION}). Let its jobs end with that version, then start this one with a "
+            "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
+        )
+        raise DatabaseUnusableError(message)
+
+
+BUSY_TIMEOUT_MS: Final = 30_000
+
+
+def check_sqlite_version() -> None:
+    """Raise DatabaseUnusableError if this Python's SQLite lacks what DBOS needs."""
+    # From Python 3.12 on DBOS reads the clock with unixepoch('subsec'), NULL in an older SQLite.
+    if sys.version_info >= (3, 12) and sqlite3.sqlite_version_info < (3, 42):
+        message = (
+            f"SQLite {sqlite3.sqlite_version} is too old. Use a Python built with SQLite 3.42 or "
+            "newer, or set MAQUETTE_DATABASE_URL to a Postgres database."
+        )
+        raise DatabaseUnusableError(message)
+
+
+def secure_file(path: Path) -> None:
+    """Create the file unless it exists, and deny access to everybody but its owner.
+
+    SQLite gives the files it creates next to it the same mode.
+    """
+    make_private_folder(path.parent)
+    if not path.exists():
+        make_private_file(path)
+    for each in database_files(path):
+        tighten(each)
+
+
+def configure_connection(connection: Any, _: object) -> None:
+    """Set up a new SQLite connection."""
+    # IMMEDIATE: a transaction that reads and then writes would otherwise fail instead of waiting.
+    connection.isolation_level = "IMMEDIATE"
+    for pragma in (
+        f"busy_timeout={BUSY_TIMEOUT_MS}",
+        "foreign_keys=ON",
+        "synchronous=FULL",
+        # Erased rows are overwritten, not only unlinked.
+        "secure_delete=ON",
+    ):
+        connection.execute(f"PRAGMA {pragma}")
+
+
+def prepare_file(engine: sa.Engine) -> None:
+    """Set what must be set before the first table exists."""
+    # auto_vacuum takes effect only before the first table; DBOS sets neither pragma.
+    connection = engine.raw_connection()
+    try:
+        connection.driver_connection.isolation_level = None  # pyright: ignore
+        cursor = connection.cursor()
+        cursor.execute("PRAGMA auto_vacuum=INCREMENTAL")
+        cursor.execute("PRAGMA journal_mode=WAL")
+        cursor.close()
+    finally:
+        connection.invalidate()
+        connection.close()

@@ -1,0 +1,173 @@
+"""A worker's heartbeat, and the recovery of fits whose worker died.
+
+Open-source DBOS recovers a process's own jobs when it restarts under the same name. Our workers
+never reuse a name, so each also watches the others: if one that has claimed jobs is dead, its jobs
+wait again.
+"""
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Collection
+from typing import Final
+
+import sqlalchemy as sa
+
+from service.jobs.availability import ABSENCES
+from service.jobs.claims import Claims
+from service.jobs.executions import Executions
+from service.jobs.liveness import WORKERS_SEEN, WorkerWatch, this_process
+from service.jobs.tables import UNABLE_WORKERS, WORKERS
+from service.jobs.transactions import insert_or_update
+from service.jobs.worker_slots import WorkerSlots
+
+LOG: Final = logging.getLogger(__name__)
+
+DROPPED_AFTER_S: Final = 5.0
+"""How long a job may be claimed by a worker that does not run it: many times as long as a claim
+takes to be made or given up."""
+
+
+class Heartbeat:
+    """A thread that beats, and recovers the fits of dead workers."""
+
+    def __init__(
+        self,
+        database: sa.Engine,
+        *,
+        executor_id: str,
+        interval_s: float,
+        dead_after_s: float,
+        claims: Claims,
+        executions: Executions,
+        slots: WorkerSlots,
+        is_able: Callable[[], bool],
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._database = database
+        self._executor_id = executor_id
+        self._interval_s = interval_s
+        self._claims = claims
+        self._executions = executions
+        self._slots = slots
+        self._is_able = is_able
+        self._monotonic = monotonic
+        self._watch = WorkerWatch(dead_after_s=dead_after_s)
+        self._process = this_process()
+        self._stopped = threading.Event()
+        self._has_queue = False
+        self._dropped_since: dict[str, float] = {}
+        self._thread = threading.Thread(target=self._run, name="heartbeat", daemon=True)
+
+    def register(self) -> None:
+        """Make this worker known, before it claims anything."""
+        self._beat()
+
+    def start(self) -> None:
+        """Begin to beat and to watch the others: DBOS must be running by now."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop beating and sign off, so that nobody waits for this worker."""
+        self._stopped.set()
+        self._thread.join()
+        with self._database.begin() as connection:
+            _forget(connection, [self._executor_id])
+        self._executions.drop_queue(self._executor_id)
+
+    def _run(self) -> None:
+        while True:
+            try:
+                self._beat()
+                self._take_over()
+                self._pick_up()
+            except ABSENCES as error:
+                cause = getattr(error, "orig", None) or error
+                LOG.warning("The database is not available (%s).", cause)
+                # Nothing could begin meanwhile.
+                self._dropped_since.clear()
+            except Exception:
+                # The database may be unavailable and come back; the heartbeat must never stop.
+                LOG.exception("A heartbeat failed.")
+            if self._stopped.wait(self._interval_s):
+                return
+
+    def _beat(self) -> None:
+        with self._database.begin() as connection:
+            beaten = connection.execute(
+                sa.update(WORKERS)
+                .where(WORKERS.c.executor_id == self._executor_id)
+                .values(beat=WORKERS.c.beat + 1)
+            )
+            if beaten.rowcount == 0:
+                # The first beat, or the others took this worker for dead and removed it.
+                self._has_queue = False
+                connection.execute(
+                    sa.insert(WORKERS).values(
+                        executor_id=self._executor_id,
+                        machine=self._process.machine,
+                        pid=self._process.pid,
+                        pid_started=self._process.pid_started,
+                        beat=0,
+                        started_at=time.time(),
+                    )
+                )
+            if self._is_able():
+                own = UNABLE_WORKERS.c.executor_id == self._executor_id
+                connection.execute(sa.delete(UNABLE_WORKERS).where(own))
+            else:
+                connection.execute(
+                    insert_or_update(connection, UNABLE_WORKERS)
+                    .values(executor_id=self._executor_id)
+                    .on_conflict_do_nothing()
+                )
+        if not self._has_queue:
+            self._executions.declare_queue(self._executor_id)
+            self._has_queue = True
+
+    def _take_over(self) -> None:
+        # In this order: a worker makes itself known before it claims anything.
+        holders, executions = self._claims.holders(), self._executions.holders()
+        with self._database.connect() as connection:
+            workers = connection.execute(WORKERS_SEEN).all()
+        alive = self._watch.alive(workers) | {self._executor_id}
+        dead = sorted(holders - alive)
+        if dead:
+            LOG.warning("Taking over the jobs of %s.", ", ".join(dead))
+            self._claims.take_from(dead)
+        left = {job for job, holder in executions.items() if holder not in alive}
+        if left:
+            # Those of jobs that have ended: their workers died before DBOS had recorded it.
+            ended = left - self._claims.waiting_or_held(left)
+            if ended:
+                self._executions.remove(ended)
+        gone = [row.executor_id for row in workers if row.executor_id not in alive]
+        if gone:
+            with self._database.begin() as connection:
+                _forget(connection, gone)
+            for each in gone:
+                self._executions.drop_queue(each)
+
+    def _pick_up(self) -> None:
+        """Put back what this worker has claimed but does not run.
+
+        Its thread ended in an error, as when DBOS itself cannot write what a fit returned, the disk
+        being full. Or it never began: it was erased meanwhile.
+        """
+        not_begun = set(self._slots.not_begun())
+        dropped = (self._claims.held() - set(self._slots.held())) | not_begun
+        now = self._monotonic()
+        self._dropped_since = {each: self._dropped_since.get(each, now) for each in dropped}
+        for job_id, since in list(self._dropped_since.items()):
+            if now - since >= DROPPED_AFTER_S:
+                LOG.warning("job=%s was dropped by this worker and is put back.", job_id)
+                self._claims.put_back(job_id)
+                if job_id in not_begun:
+                    self._slots.free(job_id)
+                del self._dropped_since[job_id]
+
+
+def _forget(connection: sa.Connection, executor_ids: Collection[str]) -> None:
+    """Remove workers that have stopped or died."""
+    for table in (WORKERS, UNABLE_WORKERS):
+        connection.execute(sa.delete(table).where(table.c.executor_id.in_(executor_ids)))

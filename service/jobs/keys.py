@@ -1,0 +1,143 @@
+"""API keys: who may send requests, and as which tenant.
+
+A key is 256 random bits; only its SHA-256 is stored, which suffices for a secret that cannot be
+guessed. It is shown once, when it is created.
+"""
+
+import hashlib
+import re
+import secrets
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+import sqlalchemy as sa
+from sqlalchemy.exc import InternalError
+
+from service.jobs.availability import available
+from service.jobs.port import EngineUnavailableError
+from service.jobs.tables import API_KEYS, KEY_USES
+from service.jobs.transactions import insert_or_update
+
+MARK: Final = "mq"
+TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
+
+
+class Role(StrEnum):
+    """What a key gives access to: a tenant's fits, or the service's metrics and nothing else."""
+
+    FITS = "fits"
+    METRICS = "metrics"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ApiKey:
+    """A stored key; times are seconds since the epoch.
+
+    ``used_at`` is when it was last used, to the minute; None if no
+    use is known.
+    """
+
+    id: str
+    tenant: str
+    role: Role
+    secret_hash: str
+    created_at: float
+    revoked_at: float | None
+    used_at: float | None
+
+
+class KeyRing:
+    """The keys in the database."""
+
+    def __init__(self, database: sa.Engine) -> None:
+        self._database = database
+
+    @available
+    def create(self, tenant: str, role: Role = Role.FITS) -> str:
+        """Create a key and return it; it cannot be shown again.
+
+        Raises
+        ------
+        ValueError
+            If the tenant's name is invalid.
+        """
+        if TENANT_NAME.fullmatch(tenant) is None:
+            message = "a tenant is named by up to 63 small letters, digits and hyphens"
+            raise ValueError(message)
+        identity = secrets.token_hex(4)
+        key = f"{MARK}_{identity}_{secrets.token_urlsafe(32)}"
+        with self._database.begin() as connection:
+            connection.execute(
+                sa.insert(API_KEYS).values(
+                    id=identity,
+                    tenant=tenant,
+                    role=role.value,
+                    secret_hash=hash_key(key),
+                    created_at=time.time(),
+                )
+            )
+        return key
+
+    @available
+    def revoke(self, identity: str) -> bool:
+        """Revoke a key, within seconds in every process; returns whether it was valid."""
+        with self._database.begin() as connection:
+            return (
+                connection.execute(
+                    sa.update(API_KEYS)
+                    .where(API_KEYS.c.id == identity, API_KEYS.c.revoked_at.is_(None))
+                    .values(revoked_at=time.time())
+                ).rowcount
+                > 0
+            )
+
+    @available
+    def all_keys(self) -> Sequence[ApiKey]:
+        """Return all keys, oldest first."""
+        query = (
+            sa.select(API_KEYS, KEY_USES.c.used_at)
+            .outerjoin(KEY_USES, KEY_USES.c.key_id == API_KEYS.c.id)
+            .order_by(API_KEYS.c.created_at)
+        )
+        with self._database.connect() as connection:
+            return [
+                ApiKey(
+                    id=row.id,
+                    tenant=row.tenant,
+                    role=Role(row.role),
+                    secret_hash=row.secret_hash,
+                    created_at=row.created_at,
+                    revoked_at=row.revoked_at,
+                    used_at=row.used_at,
+                )
+                for row in connection.execute(query)
+            ]
+
+    @available
+    def note_use(self, identity: str, *, at: float, unless_since: float) -> None:
+        """Keep that a key was used, unless a use since ``unless_since`` is known.
+
+        Several processes note the uses of one key.
+        """
+        try:
+            with self._database.begin() as connection:
+                connection.execute(
+                    insert_or_update(connection, KEY_USES)
+                    .values(key_id=identity, used_at=at)
+                    .on_conflict_do_update(
+                        index_elements=[KEY_USES.c.key_id],
+                        set_={"used_at": at},
+                        where=KEY_USES.c.used_at < unless_since,
+                    )
+                )
+        except InternalError as error:
+            # How Postgres refuses writes when it is read-only, as a standby is.
+            raise EngineUnavailableError from error
+
+
+def hash_key(key: str) -> str:
+    """Return what is stored in place of a key."""
+    return hashlib.sha256(key.encode()).hexdigest()

@@ -1,0 +1,117 @@
+"""A database and the storage of its blobs belong together: neither is used with another.
+
+The database names a storage by a number, a fact, and the storage holds that number as a blob in a
+scope of its own. Two services on one database whose folders or buckets differ would lose the jobs
+that the other one accepted: the second is refused when it starts.
+"""
+
+import contextlib
+import hashlib
+import uuid
+from collections.abc import Iterator
+from typing import Final
+
+import sqlalchemy as sa
+
+from service.blobs import (
+    BlobMissingError,
+    BlobStore,
+    BlobsUnavailableError,
+    StorageRefusedError,
+    StorageUnusableError,
+)
+from service.jobs.availability import retry_while_database_is_away
+from service.jobs.database import locked, opened
+from service.jobs.tables import FACTS
+from service.jobs.transactions import read_fact, write_fact
+from service.process.retrying import retry_with_pauses
+
+STORAGE_FACT: Final = "storage"
+SCOPE: Final = "storage-of"
+"""Where the number is kept; scopes of jobs are other names, and are all that is ever erased."""
+
+retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
+
+
+@retry_while_storage_is_away
+def make_storage(blobs: BlobStore, *, named: str) -> None:
+    """Create the folder or bucket unless it exists; waits and raises as :func:`check_storage`."""
+    with _refusals(named):
+        blobs.prepare()
+
+
+@retry_while_database_is_away
+@retry_while_storage_is_away
+def check_storage(url: str, blobs: BlobStore, *, named: str) -> None:
+    """Check that the storage is the database's, if the database has one by now.
+
+    Waits for a database or a storage that does not answer. ``named`` is the setting that names the
+    storage, with its value.
+
+    Raises
+    ------
+    StorageUnusableError
+        If it is another, or refuses what it is asked for.
+    """
+    with opened(url) as engine:
+        if not sa.inspect(engine).has_table(FACTS.name):
+            return
+        with engine.connect() as connection:
+            number = read_fact(connection, STORAGE_FACT)
+    if number is not None:
+        _check(blobs, number, named)
+
+
+@retry_while_database_is_away
+@retry_while_storage_is_away
+def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False) -> None:
+    """Take the storage for the database's from now on, unless it has one: then check it.
+
+    A database of a version before has none, so the first process that starts decides. With
+    ``adopt`` the storage takes the place of the one that the database had. Waits and raises as
+    :func:`check_storage` does; the tables must be there.
+    """
+    with opened(url) as engine:
+        with engine.connect() as connection:
+            number = read_fact(connection, STORAGE_FACT)
+        if number is None:
+            # Before it is known, so that no database names a storage that knows nothing of it.
+            offered = uuid.uuid4().hex
+            with _refusals(named):
+                blobs.put(SCOPE, offered.encode())
+            with locked(engine) as connection:
+                number = read_fact(connection, STORAGE_FACT)
+                if number is None:
+                    number = offered
+                    write_fact(connection, STORAGE_FACT, number)
+    if adopt:
+        with _refusals(named):
+            blobs.put(SCOPE, number.encode())
+    _check(blobs, number, named)
+
+
+def _check(blobs: BlobStore, number: str, named: str) -> None:
+    with _refusals(named):
+        try:
+            blobs.get(SCOPE, hashlib.sha256(number.encode()).hexdigest())
+        except BlobMissingError as error:
+            message = (
+                f"{named}: this is not the storage of the database, which has its pictures and "
+                "results elsewhere; give all API processes and workers of a database the same "
+                "storage, or, if the former one is lost or was moved here in part, run "
+                "maquette prepare --adopt-storage"
+            )
+            raise StorageUnusableError(message) from error
+
+
+@contextlib.contextmanager
+def _refusals(named: str) -> Iterator[None]:
+    """Say which setting it is that no waiting makes right."""
+    try:
+        yield
+    except StorageRefusedError as error:
+        message = (
+            f"{named}: {error}, and waiting does not help; correct the name of the bucket, its "
+            "region or the credentials, or have the rights given"
+        )
+        raise StorageUnusableError(message) from error
