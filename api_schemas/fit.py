@@ -6,11 +6,11 @@ from typing import Annotated, Final, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from api_schemas.base import WireModel, refusal
+from api_schemas.jobs import WebhookTarget
 from api_schemas.labels import LABEL_OF_FIT, Label
 from api_schemas.person import Person
 from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point, PointsFormat
-from api_schemas.webhooks import WebhookTarget
 from fitter.vocabulary.choices import Cues, OptimizerKind, PaperEnergy, ViewKind
 from fitter.vocabulary.points import PointName
 

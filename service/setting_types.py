@@ -13,7 +13,7 @@ from urllib.parse import SplitResult, urlsplit
 
 from pydantic import AfterValidator
 
-from api_schemas.webhooks import secret_key
+from api_schemas.jobs import secret_key
 from fitter.detection.weights import BODY_LANDMARKS, PERSON_DETECTOR
 
 POSTGRES: Final = "postgresql"

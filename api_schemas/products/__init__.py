@@ -1,7 +1,7 @@
 """Products: files that are functions of a finished fit, made when they are asked for.
 
-One module a kind holds its options and its result; a kind that is added has a line in each of the
-two lists here.
+``bodies`` and ``documents`` hold options and result of each kind; a kind that is added has a line
+in each of the two lists here.
 """
 
 import hashlib
@@ -14,14 +14,25 @@ from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
 from api_schemas.base import WireModel
 from api_schemas.jobs import JobState
 from api_schemas.problems import Problem
-from api_schemas.products.animation import AnimationOptions, AnimationResult
 from api_schemas.products.base import ProductKind, ProductOptions
-from api_schemas.products.caricature import CaricatureOptions, CaricatureResult
-from api_schemas.products.composition import CompositionOptions, CompositionResult
-from api_schemas.products.pose import PoseOptions, PoseResult
-from api_schemas.products.print import PrintOptions, PrintResult
-from api_schemas.products.size import SizeOptions, SizeResult
-from api_schemas.products.texture import TextureOptions, TextureResult
+from api_schemas.products.bodies import (
+    AnimationOptions,
+    AnimationResult,
+    CaricatureOptions,
+    CaricatureResult,
+    PoseOptions,
+    PoseResult,
+    TextureOptions,
+    TextureResult,
+)
+from api_schemas.products.documents import (
+    CompositionOptions,
+    CompositionResult,
+    PrintOptions,
+    PrintResult,
+    SizeOptions,
+    SizeResult,
+)
 
 # A tag is the kind in brackets, by which field names of problems leave the alternative out.
 AnyProductOptions = (

@@ -5,9 +5,9 @@ from typing import Any, Final
 
 from fastapi import APIRouter, Request, Response
 
-from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.body_models import BodyModels
 from api_schemas.problems import problem
+from api_schemas.questions import BodyEstimate, BodyRequest
+from api_schemas.service import BodyModels
 from service.api.context import Context
 from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.files import BINARY, AcceptHeader

@@ -8,10 +8,8 @@ from typing import Final, TypeVar
 from anyio import CapacityLimiter, to_thread
 from pydantic import BaseModel
 
-from api_schemas.bodies import BodyEstimate
-from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import Problem
-from api_schemas.proposals import PointsProposal, PointsRequest
+from api_schemas.questions import BodyEstimate, InitialPose, PointsProposal, PointsRequest
 from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
 from service.estimates import questions

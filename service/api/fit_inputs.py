@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from api_schemas.webhooks import WebhookTarget
+from api_schemas.jobs import WebhookTarget
 from service.api.context import ApiContext
 from service.api.json_bodies import JSON
 from service.api.storage import erase_at_once

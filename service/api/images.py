@@ -8,7 +8,7 @@ from uuid import uuid4
 from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.images import ImageId, ImagePage, UploadedImage
+from api_schemas.picture import ImageId, ImagePage, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
 from service.api.files import BINARY, NOT_MODIFIED, PICTURES, Wanted, answer_file

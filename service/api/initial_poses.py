@@ -5,9 +5,9 @@ from typing import Any, Final
 from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.initial_poses import ImageSize, InitialPose, InitialPoseRequest
 from api_schemas.points import PointsFormat
 from api_schemas.problems import FieldProblem
+from api_schemas.questions import ImageSize, InitialPose, InitialPoseRequest
 from service.api.context import ApiContext, Context
 from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.images import known_image

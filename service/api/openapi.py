@@ -10,16 +10,20 @@ from typing import Any, Final, cast
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
-from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.fit import MOST_VIEWS, FitRequest
-from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
-from api_schemas.initial_poses import InitialPose, InitialPoseRequest
-from api_schemas.jobs import EventData
+from api_schemas.jobs import EventData, WebhookEvent
+from api_schemas.picture import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.problems import Problem
 from api_schemas.products import ProductRequest
-from api_schemas.products.texture import TEXTURE_SIZES
-from api_schemas.proposals import PointsProposal, PointsRequest
-from api_schemas.webhooks import WebhookEvent
+from api_schemas.products.bodies import TEXTURE_SIZES
+from api_schemas.questions import (
+    BodyEstimate,
+    BodyRequest,
+    InitialPose,
+    InitialPoseRequest,
+    PointsProposal,
+    PointsRequest,
+)
 from fitter.vocabulary.measurements import (
     CHIEF,
     LEAST_HEIGHT_M,

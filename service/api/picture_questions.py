@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.problems import FieldProblem
-from api_schemas.proposals import PointsProposal, PointsRequest
+from api_schemas.questions import PointsProposal, PointsRequest
 from service.api.context import ApiContext, Context
 from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.images import image_content

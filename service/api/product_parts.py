@@ -6,10 +6,15 @@ from typing import Final
 
 from api_schemas.problems import FieldProblem, problem
 from api_schemas.products import AnyProductOptions
-from api_schemas.products.animation import AnimationOptions
-from api_schemas.products.size import SizeOptions, ease_faults
-from api_schemas.products.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
-from api_schemas.size_chart import MAX_CHART_BYTES, NOT_A_CHART, ChartError, read_chart
+from api_schemas.products.bodies import LEAST_OWN_TEXTURE, TEXTURE_SIZES, AnimationOptions
+from api_schemas.products.documents import (
+    MAX_CHART_BYTES,
+    NOT_A_CHART,
+    ChartError,
+    SizeOptions,
+    ease_faults,
+    read_chart,
+)
 from fitter.applications.bvh import MAX_BYTES
 from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError

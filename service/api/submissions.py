@@ -7,10 +7,10 @@ from typing import Any, Final
 from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.bodies import BodyRequest
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.jobs import Fit
 from api_schemas.problems import FieldProblem
+from api_schemas.questions import BodyRequest
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     IdempotencyKey,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
-from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.service import BodyModelInfo, BodyModels
 from fitter.errors import ModelFileError
 from fitter.fits.usable_model import usable_model
 from fitter.observation.subject import MEAN_HEIGHT_M

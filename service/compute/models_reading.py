@@ -17,7 +17,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 import fitter.body
 from api_schemas.base import WireModel
-from api_schemas.body_models import BodyModels
+from api_schemas.service import BodyModels
 from fitter.detection.weights import checked_weights
 from fitter.errors import DetectorUnavailableError
 from service.process.supervisor import PYTHON

@@ -2,10 +2,8 @@
 
 from pathlib import Path
 
-from api_schemas.bodies import BodyRequest
-from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
-from api_schemas.proposals import PointsRequest
+from api_schemas.questions import BodyRequest, InitialPose, PointsRequest
 from fitter.detection.detector import Detector, installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted

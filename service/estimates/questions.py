@@ -12,9 +12,14 @@ from typing import Final
 from pydantic import BaseModel
 
 from api_schemas.base import WireModel
-from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.initial_poses import InitialPose, InitialPoseRequest
-from api_schemas.proposals import PointsProposal, PointsRequest
+from api_schemas.questions import (
+    BodyEstimate,
+    BodyRequest,
+    InitialPose,
+    InitialPoseRequest,
+    PointsProposal,
+    PointsRequest,
+)
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 
 BODY: Final = "body"

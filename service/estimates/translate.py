@@ -8,9 +8,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 from PIL import Image
 
-from api_schemas import bodies as wire_bodies
-from api_schemas import initial_poses as wire_poses
-from api_schemas import proposals as wire_proposals
+from api_schemas import questions as wire
 from api_schemas.points import PointSource
 from fitter.body.model import BodyModel
 from fitter.fits.capture_check import CaptureQuestion
@@ -35,7 +33,7 @@ JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""
 
 
-def subject_view(subject: wire_poses.InitialPoseRequest) -> View:
+def subject_view(subject: wire.InitialPoseRequest) -> View:
     """Translate what is said of a picture that is not there; its points are named."""
     return View(
         image=b"",
@@ -48,9 +46,9 @@ def subject_view(subject: wire_poses.InitialPoseRequest) -> View:
 
 def initial_pose(
     initial: InitialBody, gender: Gender, part_names: Sequence[str]
-) -> wire_poses.InitialPose:
+) -> wire.InitialPose:
     """Translate an initial body."""
-    return wire_poses.InitialPose(
+    return wire.InitialPose(
         gender=gender,
         height_m=initial.height_m,
         camera=camera_result(initial.camera),
@@ -60,7 +58,7 @@ def initial_pose(
         points={name: _pixel(place) for name, place in initial.landmarks.items()},
         residual_px={name: float(value) for name, value in initial.residual_px.items()},
         limbs=tuple(
-            wire_poses.LimbReading(
+            wire.LimbReading(
                 limb=reading.limb,
                 facing=reading.facing,
                 ambiguous=reading.ambiguous,
@@ -73,7 +71,7 @@ def initial_pose(
     )
 
 
-def capture_question(asked: wire_proposals.PointsRequest) -> CaptureQuestion:
+def capture_question(asked: wire.PointsRequest) -> CaptureQuestion:
     """Translate what is said of a picture; points are named."""
     return CaptureQuestion(
         view=asked.view,
@@ -86,25 +84,22 @@ def capture_question(asked: wire_proposals.PointsRequest) -> CaptureQuestion:
     )
 
 
-def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
+def points_proposal(found: Proposal) -> wire.PointsProposal:
     """Translate a proposal; the caller adds its mask."""
-    points: dict[PointName, wire_proposals.ProposedPoint] = {
+    points: dict[PointName, wire.ProposedPoint] = {
         cast("PointName", name): _proposed_point(point) for name, point in found.points.items()
     }
     checked = found.checked
-    return wire_proposals.PointsProposal(
-        image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
-        persons=tuple(
-            wire_proposals.FoundPerson(box=each.box, score=each.score) for each in found.persons
-        ),
+    return wire.PointsProposal(
+        image_size=wire.PictureSize(width=found.width, height=found.height),
+        persons=tuple(wire.FoundPerson(box=each.box, score=each.score) for each in found.persons),
         person=found.person,
         points=points,
         doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
         usable=checked.usable,
         findings=finding_results(checked.findings),
         not_checked=tuple(
-            wire_proposals.NotChecked(code=each.code.value, reason=each.reason)
-            for each in checked.unchecked
+            wire.NotChecked(code=each.code.value, reason=each.reason) for each in checked.unchecked
         ),
         seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
@@ -128,10 +123,10 @@ def jpeg(pixels: UInt8[np.ndarray, "h w 3"]) -> bytes:
     return encoded.getvalue()
 
 
-def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyEstimate:
+def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire.BodyEstimate:
     """Translate an estimated body; the caller adds its file."""
     measurements = tuple(
-        wire_bodies.EstimatedMeasurement(
+        wire.EstimatedMeasurement(
             name=each.measurement.name,
             value=round(each.measurement.value, 2),
             unit=each.measurement.unit,
@@ -145,7 +140,7 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
         for each in estimate.measurements
     )
     stature_cm = next(each.value for each in measurements if each.name == STATURE)
-    return wire_bodies.BodyEstimate(
+    return wire.BodyEstimate(
         gender=Gender(model.gender),
         height_m=round(stature_cm / 100.0, 4),
         shape=rounded_parameters(estimate.shape),
@@ -156,9 +151,9 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
     )
 
 
-def _proposed_point(point: ProposedPoint) -> wire_proposals.ProposedPoint:
+def _proposed_point(point: ProposedPoint) -> wire.ProposedPoint:
     x, y = _pixel(np.array([point.click.x, point.click.y]))
-    return wire_proposals.ProposedPoint(
+    return wire.ProposedPoint(
         x=x,
         y=y,
         visibility=1 if point.click.occluded else SEEN,

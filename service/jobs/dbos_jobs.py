@@ -9,8 +9,8 @@ from typing import Final
 import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer
 
-from api_schemas.body_models import BodyModels
 from api_schemas.jobs import JobState
+from api_schemas.service import BodyModels
 from service.blobs import BlobStore
 from service.jobs.admission import Admission
 from service.jobs.availability import available

@@ -17,7 +17,7 @@ from typing import Final
 import sqlalchemy as sa
 from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
 
-from api_schemas.body_models import BodyModels
+from api_schemas.service import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.jobs.attempts import AttemptLog, computed_from_json, computed_to_json
 from service.jobs.availability import ABSENCES

@@ -12,7 +12,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from api_schemas.bodies import EstimatedMeasurement
+from api_schemas.questions import EstimatedMeasurement
 from api_schemas.results import Measurement
 
 FORMULAS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")

@@ -12,7 +12,7 @@ from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point, PointsFormat
 from api_schemas.problems import FieldProblem
-from api_schemas.proposals import PointsRequest
+from api_schemas.questions import PointsRequest
 from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY
 from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures

@@ -13,8 +13,8 @@ from typing import Final
 
 import httpx
 
+from api_schemas.jobs import WebhookEvent, WebhookEventType, WebhookTarget, secret_key
 from api_schemas.problems import FieldProblem
-from api_schemas.webhooks import WebhookEvent, WebhookEventType, WebhookTarget, secret_key
 from service.blobs import BlobMissingError, BlobStore
 from service.jobs.port import JobRecord
 from service.process.logs import fields

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas import proposals as wire
+from api_schemas import questions as wire
 from fitter.capture import framing, people, picture_quality, posture
 from fitter.capture.finding import Code
 from fitter.fits import reporting

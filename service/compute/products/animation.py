@@ -1,7 +1,7 @@
 """The fitted body in motion: from a BVH file sent with the request, or by name."""
 
-from api_schemas.products.animation import AnimationOptions, AnimationResult
 from api_schemas.products.base import BodyColours
+from api_schemas.products.bodies import AnimationOptions, AnimationResult
 from api_schemas.results import FitWarning
 from fitter.applications.animation import (
     ChosenMotion,

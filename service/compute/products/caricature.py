@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from api_schemas.products.caricature import (
+from api_schemas.products.bodies import (
     CaricatureOptions,
     CaricatureResult,
     Exaggerated,

@@ -1,6 +1,6 @@
 """Body-fat share by published regressions."""
 
-from api_schemas.products.composition import (
+from api_schemas.products.documents import (
     BodyFatEstimate,
     CompositionOptions,
     CompositionResult,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from api_schemas.products.base import BodyColours
-from api_schemas.products.pose import NamedPose, PoseOptions, PoseResult
+from api_schemas.products.bodies import NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of

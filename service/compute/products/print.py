@@ -8,7 +8,7 @@ from typing import Final
 import cv2
 import numpy as np
 
-from api_schemas.products.print import PrintOptions, PrintResult
+from api_schemas.products.documents import PrintOptions, PrintResult
 from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
 from fitter.vocabulary.measurements import CHIEF
 from service.compute.pipeline_port import Made

@@ -3,8 +3,14 @@
 import numpy as np
 from scipy.special import ndtr
 
-from api_schemas.products.size import SizeChance, SizedMeasurement, SizeOptions, SizeResult
-from api_schemas.size_chart import columns_of, read_chart
+from api_schemas.products.documents import (
+    SizeChance,
+    SizedMeasurement,
+    SizeOptions,
+    SizeResult,
+    columns_of,
+    read_chart,
+)
 from fitter.applications.sizes import Sizes, size_answer, sizes_of
 from fitter.measurement.joint_measurements import JointMeasurements
 from service.compute.pipeline_port import Made

@@ -3,7 +3,7 @@
 import numpy as np
 from jaxtyping import UInt8
 
-from api_schemas.products.texture import TextureColours, TextureOptions, TextureResult
+from api_schemas.products.bodies import TextureColours, TextureOptions, TextureResult
 from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.export.display import png

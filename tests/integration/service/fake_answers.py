@@ -9,12 +9,14 @@ import os
 import time
 from pathlib import Path
 
-from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
-from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
-from api_schemas.proposals import (
+from api_schemas.questions import (
+    BodyEstimate,
+    EstimatedMeasurement,
     FoundPerson,
+    InitialPose,
+    LimbReading,
     PictureSize,
     PointsProposal,
     PointsRequest,

@@ -14,9 +14,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
-from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.problems import FieldProblem
 from api_schemas.products.base import ProductResult
+from api_schemas.service import BodyModelInfo, BodyModels
 from fitter.vocabulary.choices import Gender
 from service.compute.pipeline_port import (
     Made,

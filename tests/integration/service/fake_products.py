@@ -1,12 +1,19 @@
 """What the simulated pipeline makes of a fit: results and files of some kinds, without numbers."""
 
 from api_schemas.problems import FieldProblem
-from api_schemas.products.animation import AnimationOptions, AnimationResult
 from api_schemas.products.base import BodyColours, ProductResult
-from api_schemas.products.caricature import CaricatureOptions, CaricatureResult
-from api_schemas.products.composition import CompositionOptions, CompositionResult
-from api_schemas.products.pose import PoseOptions, PoseResult
-from api_schemas.products.texture import TextureColours, TextureOptions, TextureResult
+from api_schemas.products.bodies import (
+    AnimationOptions,
+    AnimationResult,
+    CaricatureOptions,
+    CaricatureResult,
+    PoseOptions,
+    PoseResult,
+    TextureColours,
+    TextureOptions,
+    TextureResult,
+)
+from api_schemas.products.documents import CompositionOptions, CompositionResult
 from service.compute.pipeline_port import Made, ProductInput, UnusableInputError
 from service.jobs.inputs import CLIP, TEXTURE
 

@@ -4,8 +4,7 @@ import base64
 
 import pytest
 
-from api_schemas.bodies import BodyEstimate
-from api_schemas.initial_poses import InitialPose
+from api_schemas.questions import BodyEstimate, InitialPose
 from tests.integration.service.fake_answers import GLB
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (

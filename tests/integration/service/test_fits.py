@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, Fit
 from api_schemas.results import FitResult
+from api_schemas.service import BodyModels
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import STAGES, scripted_image
 from tests.integration.service.harness import (

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.images import UploadedImage
+from api_schemas.picture import UploadedImage
 from service.jobs.database import open_database, prepare_database
 from service.jobs.dbos_jobs import JobEngine
 from service.jobs.images import NewImage

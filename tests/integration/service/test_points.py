@@ -11,7 +11,7 @@ import pytest
 
 from api_schemas.fit import FitRequest
 from api_schemas.points import Point
-from api_schemas.proposals import PointsProposal
+from api_schemas.questions import PointsProposal
 from tests.integration.service.fake_answers import MASK
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (

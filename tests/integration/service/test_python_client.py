@@ -7,7 +7,7 @@ import pytest
 
 from api_schemas.client import Maquette, MaquetteError
 from api_schemas.fit import FitRequest
-from api_schemas.products.caricature import CaricatureOptions
+from api_schemas.products.bodies import CaricatureOptions
 from fitter.vocabulary.choices import Gender
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import Service

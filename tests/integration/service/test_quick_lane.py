@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.questions import BodyEstimate, BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.estimates.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
 from service.numerics import quick_lane

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.bodies import BodyRequest
+from api_schemas.questions import BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.estimates.questions import BODY, FILE, QUESTION, BodyTask
 from service.numerics import quick_lane

@@ -6,8 +6,7 @@ import signal
 
 import pytest
 
-from api_schemas.jobs import Fit
-from api_schemas.webhooks import WebhookEvent
+from api_schemas.jobs import Fit, WebhookEvent
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     OWN_SECRET,

@@ -6,13 +6,11 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageChops, ImageStat
 
-from api_schemas.bodies import BodyRequest
 from api_schemas.fit import FitRequest
-from api_schemas.initial_poses import ImageSize, InitialPoseRequest
 from api_schemas.person import UncertainMeasurement
 from api_schemas.picture import Limb
 from api_schemas.points import Point, PointSource
-from api_schemas.proposals import PointsRequest
+from api_schemas.questions import BodyRequest, ImageSize, InitialPoseRequest, PointsRequest
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.compute.pipeline_port import UnusableInputError

@@ -4,9 +4,8 @@ import asyncio
 
 import pytest
 
-from api_schemas.bodies import BodyRequest
 from api_schemas.problems import FieldProblem, Problem, field_problem
-from api_schemas.proposals import PointsRequest
+from api_schemas.questions import BodyRequest, PointsRequest
 from fitter.vocabulary.choices import Gender
 from service.api.estimates import Estimates
 from service.api.metrics import ServiceMetrics

@@ -4,18 +4,21 @@ import json
 
 import pytest
 
-from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.body_models import BodyModels
 from api_schemas.fit import FitRequest
-from api_schemas.images import ImagePage, UploadedImage
-from api_schemas.initial_poses import InitialPose, InitialPoseRequest
-from api_schemas.jobs import Fit, FitPage
+from api_schemas.jobs import Fit, FitPage, WebhookEvent
+from api_schemas.picture import ImagePage, UploadedImage
 from api_schemas.problems import ProblemType
 from api_schemas.products import Product, ProductRequest
-from api_schemas.proposals import PointsProposal, PointsRequest
+from api_schemas.questions import (
+    BodyEstimate,
+    BodyRequest,
+    InitialPose,
+    InitialPoseRequest,
+    PointsProposal,
+    PointsRequest,
+)
 from api_schemas.results import FitResult
-from api_schemas.service import Live, Ready
-from api_schemas.webhooks import WebhookEvent
+from api_schemas.service import BodyModels, Live, Ready
 from service.api.openapi import recorded_examples
 
 REQUESTS, ANSWERS, NOTICES = (

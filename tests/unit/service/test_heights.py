@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import pytest
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from api_schemas import bodies, fit, initial_poses, person, proposals
-from api_schemas.body_models import BodyModels
+from api_schemas import fit, person, questions
+from api_schemas.service import BodyModels
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from service.api.openapi import complete_openapi
 from service.submissions.validation import field_problems
 
-MODULES = (bodies, fit, initial_poses, proposals)
+MODULES = (fit, questions)
 
 
 def requests_with_a_height() -> Iterator[type[BaseModel]]:
@@ -52,7 +52,7 @@ def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
 
 def test_heights_of_children_are_refused_as_such():
     with pytest.raises(ValidationError) as caught:
-        proposals.PointsRequest.model_validate({"height_m": 1.1})
+        questions.PointsRequest.model_validate({"height_m": 1.1})
     (problem,) = field_problems(caught.value.errors())
     assert "grown-up" in problem.reason
     assert "grown-up" in problem.remedy

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from api_schemas.problems import PROBLEM_TYPES
-from api_schemas.products.animation import NamedMotion
+from api_schemas.products.bodies import NamedMotion
 from fitter.capture.finding import Code
 from fitter.vocabulary.measurements import CHIEF
 from fitter.vocabulary.outcomes import Verdict

@@ -1,6 +1,6 @@
 """What clients are told of pictures before they send them is what the fit holds them to."""
 
-from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX
+from api_schemas.picture import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX
 from fitter.observation import decoding
 
 

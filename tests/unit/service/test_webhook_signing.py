@@ -5,7 +5,7 @@ import hmac
 import pytest
 from pydantic import ValidationError
 
-from api_schemas.webhooks import WebhookTarget
+from api_schemas.jobs import WebhookTarget
 from service.webhooks.notices import signed_headers
 
 SECRET = "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw"

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from api_schemas.products.animation import NamedMotion
+from api_schemas.products.bodies import NamedMotion
 from fitter.applications.named_motions import NAMED_MOTIONS
 from service.compute.pipeline_port import UnusableInputError
 from service.jobs.inputs import CLIP

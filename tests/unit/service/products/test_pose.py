@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from api_schemas.products.base import BodyColours
-from api_schemas.products.pose import NamedPose
+from api_schemas.products.bodies import NamedPose
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.body.storage import load_body_model, packaged_model_path
 from service.compute.pipeline_port import UnusableInputError

@@ -6,7 +6,7 @@ import io
 import numpy as np
 import pytest
 
-from api_schemas.size_chart import EXAMPLE, ChartError, columns_of, read_chart
+from api_schemas.products.documents import EXAMPLE, ChartError, columns_of, read_chart
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender

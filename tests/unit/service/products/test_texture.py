@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from api_schemas.products.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
+from api_schemas.products.bodies import LEAST_OWN_TEXTURE, TEXTURE_SIZES
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
