@@ -84,8 +84,8 @@ def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
 
 
 def with_rest(
-    targets: Float[np.ndarray, "k *rest"], weights: Float[np.ndarray, " k"]
-) -> Float[np.ndarray, "k_and_one *rest"]:
+    targets: Float[np.ndarray, " k *rest"], weights: Float[np.ndarray, " k"]
+) -> Float[np.ndarray, " k_and_one *rest"]:
     """Append the target that, at weight one, cancels the others at these weights."""
     return np.concatenate([targets, -np.tensordot(weights, targets, axes=1)[None]])
 
