@@ -23,10 +23,10 @@ from pydantic import Field, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.labels import is_readable
-from api_schemas.person import MeasurementName
+from api_schemas.person import MeasurementName, unknown_name_remedy
 from api_schemas.problems import FieldProblem
 from api_schemas.products.base import ProductOptions, ProductResult
-from fitter.vocabulary.measurements import MEASUREMENT_UNITS, unknown_name_remedy
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 
 
 class PrintOptions(ProductOptions):

@@ -14,13 +14,14 @@ from typing import Annotated, Final
 from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from api_schemas.fit import FitRequest
+from api_schemas.person import unknown_name_remedy
 from api_schemas.problems import field_problem, problem
 from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Gender, ViewKind
-from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT, unknown_name_remedy
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
 from service.commands.fit import PIPELINE, UNUSABLE_INPUT, fitted, told
 from service.compute.pipeline_port import UnusableInputError
 from service.jobs.inputs import SentPicture
