@@ -133,15 +133,13 @@ def _parser() -> argparse.ArgumentParser:
     paper = commands.add_parser(
         "paper", help="draw the paper's figures and its table from fits made here and now"
     )
-    for name, shown in (("--picture", "of Figs. 2, 3, 5, 7 and 9"), ("--painting", "of Fig. 10")):
-        paper.add_argument(
-            name,
-            type=Path,
-            nargs=2,
-            metavar=("PICTURE", "REQUEST"),
-            help=f"{shown}, with the JSON of its request",
-        )
-    paper.add_argument("--motion", type=Path, metavar="BVH", help="motion capture, of Fig. 9")
+    paper.add_argument(
+        "--painting",
+        type=Path,
+        nargs=2,
+        metavar=("PICTURE", "REQUEST"),
+        help="of Fig. 10, with the JSON of its request",
+    )
     paper.add_argument(
         "--output",
         type=Path,
@@ -278,19 +276,10 @@ def _given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:
 
 
 def _draw_paper(parsed: argparse.Namespace) -> int:
-    from service.commands.paper import PaperArguments, draw_paper
+    from service.commands.paper import draw_paper
     from service.startup import read_settings
 
-    settings = read_settings("paper")
-    return draw_paper(
-        PaperArguments(
-            output=parsed.output,
-            picture=parsed.picture,
-            painting=parsed.painting,
-            motion=parsed.motion,
-        ),
-        settings,
-    )
+    return draw_paper(parsed.output, parsed.painting, read_settings("paper"))
 
 
 def _demo(parsed: argparse.Namespace) -> int:

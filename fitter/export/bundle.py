@@ -4,6 +4,9 @@ import json
 from collections.abc import Sequence
 from functools import lru_cache
 
+import numpy as np
+from jaxtyping import UInt8
+
 from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.export.antialiasing import render_finely, vertex_pictures
@@ -79,7 +82,9 @@ def _files_of(
     }
     if view.pictures.trimap is not None:
         files["trimap.png"] = png(trimap_levels(view.pictures.trimap, view.camera, camera))
-    return files | _reflectance_pictures(found, model)
+    return files | {
+        name: png(picture) for name, picture in reflectance_pictures(found, model).items()
+    }
 
 
 def overlay_png(found: PictureFit, *, model: BodyModel, image: bytes) -> bytes:
@@ -103,8 +108,13 @@ def _topology(model: BodyModel) -> MeshTopology:
     return mesh_topology(model.triangles, vertex_count=len(model.mean_vertices))
 
 
-def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, bytes]:
-    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them."""
+def reflectance_pictures(
+    found: PictureFit, model: BodyModel
+) -> dict[str, UInt8[np.ndarray, "h w 3"]]:
+    """Fig. 7 by files' names: albedo, the Lambertian part of Eq. 1, and all of it.
+
+    As the camera sees them; none without shading.
+    """
     light, reflectance = found.person.light, found.person.reflectance
     if light is None or reflectance is None:
         return {}
@@ -123,8 +133,7 @@ def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, byte
         "shading_lambertian.png": lambertian,
         "shading.png": lambertian + reflectance.specularity * terms.specular,
     }
-    pictures = vertex_pictures(list(values.values()), fine)
-    return {name: png(picture) for name, picture in zip(values, pictures, strict=True)}
+    return dict(zip(values, vertex_pictures(list(values.values()), fine), strict=True))
 
 
 DECIMALS = 4

@@ -3,9 +3,12 @@
 A silhouette can be right and the body wrong (the paper's Fig. 5): the side view shows it.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
-from jaxtyping import UInt8
+from jaxtyping import Float, UInt8
 
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
@@ -32,6 +35,48 @@ FILL_LIGHT = 0.18
 
 LABEL_COLOUR = (70, 70, 70)
 
+EYE_LEVEL_M = 0.9
+"""Height of the onlooker's eye above the ground: about the middle of a standing body."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyView:
+    """A body as it is to be seen.
+
+    Attributes
+    ----------
+    label
+        Written above it.
+    vertices
+        (m, 3) body frame, metres; it stands on its lowest vertex.
+    degrees
+        How far the onlooker has walked to the right round it, from its front.
+    """
+
+    label: str
+    vertices: Vertices
+    degrees: float = 0.0
+
+
+def preview(views: Sequence[BodyView], triangles: Triangles) -> UInt8[np.ndarray, "h w 3"]:
+    """Panels from left to right, in one scale and on one ground."""
+    seen = [_on_the_ground(view) for view in views]
+    camera = _panel_camera(np.concatenate(seen))
+    return np.concatenate(
+        [
+            clay_panel(vertices, triangles, view.label, camera)
+            for view, vertices in zip(views, seen, strict=True)
+        ],
+        axis=1,
+    )
+
+
+def _on_the_ground(view: BodyView) -> Vertices:
+    low, high = view.vertices.min(axis=0), view.vertices.max(axis=0)
+    x, _, z = 0.5 * (low + high)
+    eye_level = np.array([x, low[1] + EYE_LEVEL_M, z])
+    return before_onlooker(view.vertices, eye_level, view.degrees)
+
 
 def views_picture(
     *,
@@ -54,16 +99,14 @@ def views_picture(
     canonical_vertices
         (m, 3) body frame, metres.
     """
-    middle = 0.5 * (canonical_vertices.max(axis=0) + canonical_vertices.min(axis=0))
-    there = np.array([0.0, 0.0, CANONICAL_DISTANCE_M])
-    canonical = (canonical_vertices - middle) * CAMERA_AXES + there
+    middle = middle_of(canonical_vertices)
     panels = {
         "from the camera": posed_vertices,
         "from the right of the picture": turned_about_vertical(
             under_level_camera(posed_vertices, root, tilt), root, 90.0
         ),
-        "canonical, front": canonical,
-        "canonical, side": turned_about_vertical(canonical, there, 90.0),
+        "canonical, front": before_onlooker(canonical_vertices, middle, 0.0),
+        "canonical, side": before_onlooker(canonical_vertices, middle, 90.0),
     }
     return np.concatenate(
         [
@@ -72,6 +115,20 @@ def views_picture(
         ],
         axis=1,
     )
+
+
+def middle_of(vertices: Vertices) -> Vector3:
+    """Middle of the box around a body."""
+    return 0.5 * (vertices.max(axis=0) + vertices.min(axis=0))
+
+
+def before_onlooker(vertices: Vertices, centre: Vector3, degrees: float) -> Vertices:
+    """Body-frame vertices in the camera frame of somebody who walked to the right round a point.
+
+    They are :data:`CANONICAL_DISTANCE_M` away from that point and look at it.
+    """
+    there = np.array([0.0, 0.0, CANONICAL_DISTANCE_M])
+    return turned_about_vertical((vertices - centre) * CAMERA_AXES + there, there, degrees)
 
 
 def under_level_camera(vertices: Vertices, root: Vector3, tilt: CameraTilt | None) -> Vertices:
@@ -133,19 +190,22 @@ def clay_panel(
     camera
         Whose picture the panel is.
     """
-    levels = clay_picture(vertices, triangles, camera)
+    levels = coloured_body(vertices, triangles, camera)
     cv2.putText(
         levels, label, (12, 24), cv2.FONT_HERSHEY_SIMPLEX, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA
     )
     return levels
 
 
-def clay_picture(
-    vertices: Vertices, triangles: Triangles, camera: Camera
+def coloured_body(
+    vertices: Vertices,
+    triangles: Triangles,
+    camera: Camera,
+    colour: Float[np.ndarray, "3"] = CLAY,
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """A body of clay before white paper; the vertices in the camera's frame, metres."""
+    """A lit body before white paper; vertices in the camera's frame, metres, linear albedo."""
     fine = render_finely(vertices, triangles, camera)
     lit = np.clip(fine.rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
     shading = FILL_LIGHT + (1.0 - FILL_LIGHT) * lit
-    (levels,) = vertex_pictures([shading[:, None] * CLAY], fine)
+    (levels,) = vertex_pictures([shading[:, None] * colour], fine)
     return levels

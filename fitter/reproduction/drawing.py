@@ -1,167 +1,128 @@
-"""All of the paper's figures and its table, from the pictures that they are drawn of."""
+"""All of the paper's figures, and Table 1: one person in three poses, and the truth."""
 
-import html
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final
 
-from fitter.applications.animation import motion_of_clip
-from fitter.applications.motion import Motion, motion_of_cycle
-from fitter.applications.motion_file import MotionFile
-from fitter.applications.named_motions import stride_of
-from fitter.applications.rig import rig_of
-from fitter.fits.pipeline import fit
-from fitter.fits.prepared_model import prepared_model
-from fitter.reproduction.ambiguities import figure_4, figure_5, fit_by_paper
-from fitter.reproduction.first_guess import figure_2, figure_3
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Triangles, Vertices
+from fitter.export.antialiasing import render_finely, vertex_pictures
+from fitter.export.display import to_levels
+from fitter.export.views import CLAY, before_onlooker, coloured_body, middle_of
+from fitter.render.camera import Camera
 from fitter.reproduction.looks import figure_6, figure_7, figure_9, figure_10
-from fitter.reproduction.panels import Figure
-from fitter.reproduction.subject import COLUMNS, PRINTED, Sizes, Subject, Table, figure_8, table_1
+from fitter.reproduction.method import figure_2, figure_3, figure_4, figure_5, fitted
+from fitter.reproduction.panels import (
+    GREEN,
+    RED,
+    Figure,
+    Levels,
+    common_camera,
+    in_profile,
+    row,
+    stacked,
+)
 from fitter.request import FitRequest, Paper
-from fitter.result import FitResult
+from fitter.result import FitResult, FitStage
 from fitter.vocabulary.choices import Cues
 
 BY_PAPER: Final = "by the paper's method"
 BY_OURS: Final = "by this package's method"
 
+HIDING: Final = "occluded"
+"""The subject's pose in which an arm hides part of the trunk."""
+
+COLUMNS: Final = (
+    ("Chest size (cm)", "chest_girth"),
+    ("Waist size (cm)", "waist_girth_navel"),
+    ("Body weight (kg)", "weight"),
+)
+"""Of the paper's Table 1, in its order."""
+
+_WORST_CM: Final = 5.0
+_STOPS: Final = np.array(
+    [[0.05, 0.10, 0.75], [0.05, 0.60, 0.80], [0.15, 0.65, 0.15], [0.95, 0.80, 0.10],
+     [0.85, 0.10, 0.05], [0.40, 0.02, 0.45]]
+)  # fmt: skip
+"""Linear colours of displacements of 0, 1 ... 5 cm."""
+
+_HEIGHT_PX: Final = 300
+_BODY_PX: Final = 150
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Pictures:
-    """Pictures that the figures are drawn of.
+class Subject:
+    """Somebody whose body is known, in pictures of several poses by name.
 
     Attributes
     ----------
-    portrait
-        One person, of Figs. 2, 3, 5, 7 and 9.
-    subject
-        Of Figs. 4 and 8 and of Table 1.
-    hiding
-        Which of the subject's pictures is that of Fig. 4.
-    painting
-        Of Fig. 10; without one there is none.
-    motion
-        Motion capture of Fig. 9; None for the walk that ships with the package.
+    requests
+        Of the pictures.
+    posed
+        (m, 3) the true bodies, camera frame, metres.
+    canonical
+        (m, 3) the true body in the canonical pose, body frame, metres.
+    measurements
+        The true ones by name, centimetres and kilograms.
     """
 
-    portrait: FitRequest
-    subject: Subject
-    hiding: int
-    painting: FitRequest | None = None
-    motion: MotionFile | None = None
+    requests: Mapping[str, FitRequest]
+    posed: Mapping[str, Vertices]
+    canonical: Vertices
+    measurements: Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Reproduction:
-    """The figures in their order, and Table 1 by the paper's method and by this package's."""
-
-    figures: tuple[Figure, ...]
-    tables: tuple[Table, ...]
+Sizes = tuple[tuple[float, float, float], ...]
+"""SE, SES and truth of each column."""
 
 
-def reproduce(
-    pictures: Pictures, on_drawn: Callable[[Figure], None] = lambda _: None
-) -> Reproduction:
-    """Draw everything; ``on_drawn`` receives each figure as soon as it is there.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """Table 1: of each pose the three columns, by one method."""
 
-    Raises
-    ------
-    InvalidInputError
-        If a picture cannot be used.
-    """
-    figures: list[Figure] = []
+    title: str
+    rows: tuple[Sizes, ...]
 
-    def drawn(figure: Figure | None) -> None:
-        if figure is not None:
-            figures.append(figure)
-            on_drawn(figure)
 
-    portrait, subject = pictures.portrait, pictures.subject
-    plain = fit_by_paper(portrait, Paper())
-    drawn(figure_2(portrait, plain))
-    drawn(figure_3(plain))
-    drawn(figure_4(subject.pictures[pictures.hiding].request))
-    drawn(figure_5(portrait, plain))
-    drawn(figure_6())
-    shaded = _fit(portrait)
-    drawn(figure_7(shaded))
-    by_paper = [fit_by_paper(each.request, Paper(), Cues.SES) for each in subject.pictures]
-    ours = [_fit(each.request) for each in subject.pictures]
-    drawn(figure_8("figure_8", f"Figure 8: SE and SES, {BY_PAPER}", subject, by_paper))
-    drawn(figure_8("figure_8_ours", f"Figure 8 once more, {BY_OURS}", subject, ours))
-    motion = _motion(shaded, pictures.motion)
-    drawn(figure_9(portrait, shaded, motion, recorded=pictures.motion is not None))
-    if pictures.painting is not None:
-        drawn(figure_10(pictures.painting, _fit(pictures.painting)))
-    return Reproduction(
-        figures=tuple(figures),
-        tables=(table_1(BY_PAPER, subject, by_paper), table_1(BY_OURS, subject, ours)),
+PRINTED_TABLE: Final = Table(
+    title="as the paper prints it",
+    rows=(
+        ((95.7, 92.7, 92.6), (86.4, 79.6, 80.2), (72.0, 65.4, 63.8)),
+        ((84.3, 87.1, 91.6), (83.7, 78.5, 79.4), (62.5, 62.4, 63.2)),
+        ((95.4, 91.9, 91.4), (88.0, 76.9, 80.3), (70.8, 63.5, 62.6)),
+    ),
+)
+
+
+def table_1(title: str, subject: Subject, results: Sequence[FitResult]) -> Table:
+    """Measurements of fits of the subject's pictures."""
+    return Table(
+        title=title,
+        rows=tuple(
+            tuple(
+                (
+                    _measured(_outline_stage(result), name),
+                    _measured(result.stages[-1], name),
+                    subject.measurements[name],
+                )
+                for _, name in COLUMNS
+            )
+            for result in results
+        ),
     )
 
 
-def _fit(request: FitRequest) -> FitResult:
-    """As every fit is done, with shading; what is doubtful is shown too."""
-    return fit(
-        replace(
-            request,
-            views=tuple(replace(view, cues=Cues.SES) for view in request.views),
-            choices=replace(request.choices, force=True),
-        )
-    )
-
-
-def _motion(result: FitResult, source: MotionFile | None) -> Motion:
-    model = prepared_model(result.person.gender).operators.model
-    rig = rig_of(model, result.person.body.shape)
-    if source is None:
-        return motion_of_cycle(stride_of(rig), rig)
-    return motion_of_clip(source, rig).motion
-
-
-_STYLE: Final = (
-    "body{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem}"
-    "img{max-width:100%}table{border-collapse:collapse;margin:1rem 0}"
-    "td,th{padding:.2rem .7rem;text-align:right;border-bottom:1px solid #ccc}"
-    "caption{text-align:left;font-weight:bold}"
-)
-_INTRODUCTION: Final = (
-    "The figures and the table of P. Guan, A. Weiss, A. O. Bălan and M. J. Black, Estimating Human "
-    "Shape and Pose from a Single Image, ICCV 2009, drawn from fits of this package. Pictures are "
-    "rendered people, unless others were given. Fig. 1 is an overview of the others."
-)
-TABLE_NOTE: Final = (
-    "In parentheses the deviation from the truth. The waist is the navel's. The paper's truth "
-    "differs from pose to pose, since it is a fit to each; here it is one body at rest."
-)
-PRINTED_TABLE: Final = Table(title="as the paper prints it", rows=PRINTED)
-
-
-def index_html(reproduction: Reproduction) -> str:
-    """A page for a folder in which the figures lie as ``NAME.png``."""
-    parts = [f"<h1>The paper, reproduced</h1><p>{html.escape(_INTRODUCTION)}</p>"]
-    for each in reproduction.figures:
-        title = html.escape(each.title)
-        parts.append(
-            f'<h2>{title}</h2><img src="{each.name}.png" alt="{title}">'
-            f"<p>{html.escape(each.caption)}</p>"
-            f"<p><em>Different:</em> {html.escape(each.differs)}</p>"
-        )
-    parts.append(f"<h2>Table 1</h2><p>{html.escape(TABLE_NOTE)}</p>")
-    parts += [table_html(each) for each in (*reproduction.tables, PRINTED_TABLE)]
-    return (
-        '<!doctype html><html lang="en"><meta charset="utf-8"><title>The paper, reproduced</title>'
-        f"<style>{_STYLE}</style><body>{''.join(parts)}</body></html>\n"
-    )
-
-
-def table_csv(tables: Sequence[Table]) -> str:
-    """Table 1 of each kind, one line a pose."""
+def table_markdown(table: Table) -> str:
+    """Table 1 by one method, as Markdown."""
     heads = [f"{title} {kind}" for title, _ in COLUMNS for kind in ("SE", "SES", "GT")]
-    lines = [",".join(["table", "pose", *heads])]
-    for table in tables:
-        for number, row in enumerate(table.rows, start=1):
-            values = [f"{value:.1f}" for sizes in row for value in sizes]
-            lines.append(",".join([table.title, str(number), *values]))
-    return "\n".join(lines) + "\n"
+    rows = [["", *heads], ["---:"] * (1 + len(heads))]
+    rows += [
+        [f"Pose {number}", *table_cells(row)] for number, row in enumerate(table.rows, start=1)
+    ]
+    lines = "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    return f"**Table 1 {table.title}**\n\n{lines}"
 
 
 def table_cells(row: Sizes) -> list[str]:
@@ -178,17 +139,137 @@ def _with_deviation(value: float, true: float) -> str:
     return f"{value:.1f} ({round(value - true, 1) + 0.0:+.1f})"
 
 
-def table_html(table: Table) -> str:
-    """Table 1 by one method, as HTML."""
-    top = "".join(f'<th colspan="3">{html.escape(title)}</th>' for title, _ in COLUMNS)
-    kinds = "<th>SE</th><th>SES</th><th>GT</th>" * len(COLUMNS)
-    rows = "".join(
-        f"<tr><th>Pose {number}</th>"
-        + "".join(f"<td>{cell}</td>" for cell in table_cells(row))
-        + "</tr>"
-        for number, row in enumerate(table.rows, start=1)
+def figure_8(name: str, title: str, subject: Subject, results: Sequence[FitResult]) -> Figure:
+    """First body, SE, SES and the truth of every pose, with displacements from the truth."""
+    rows: list[Levels] = []
+    means: list[tuple[float, float]] = []
+    for (pose, posed), result in zip(subject.posed.items(), results, strict=True):
+        errors = [
+            displacements_m(each.canonical_vertices, subject.canonical)
+            for each in (_outline_stage(result), result.stages[-1])
+        ]
+        means.append((1000.0 * errors[0].mean(), 1000.0 * errors[1].mean()))
+        rows.append(_row_of(pose, posed, result, errors))
+    by_outline, shaded = (np.mean([each[k] for each in means]) for k in range(2))
+    return Figure(
+        name=name,
+        title=title,
+        caption=(
+            "Three poses, from left to right: picture; first body; SE (red) from the "
+            "camera, from the right, and its displacement from the truth at rest; the same of SES "
+            "(green); the truth. Blue is no displacement, purple 5 cm and more. Vertices are "
+            f"{by_outline:.1f} mm off by SE and {shaded:.1f} mm by SES, on the mean of all poses."
+        ),
+        differs=(
+            "The truth is the mesh that the pictures were rendered from, by another renderer and "
+            "another maker's rig, not the same model fitted to eight cameras. Camera and light "
+            "differ from pose to pose."
+        ),
+        picture=stacked(rows),
     )
+
+
+def displacements_m(found: Vertices, true: Vertices) -> Float[np.ndarray, " m"]:
+    """Distance of each vertex from the truth, metres, with both bodies' centres together."""
+    off = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
+    return np.linalg.norm(off, axis=1)
+
+
+def _row_of(
+    pose: str, true: Vertices, result: FitResult, errors: Sequence[Float[np.ndarray, " m"]]
+) -> Levels:
+    (view,), triangles = result.views, result.triangles
+    stages = (result.stages[0], _outline_stage(result), result.stages[-1])
+    found = [stage.bodies[0] for stage in stages]
+    front = [*(each.posed_vertices for each in found), true]
+    roots = [*(each.body.translation for each in found), true.mean(axis=0)]
+    tilt = view.found.person.tilt
+    side = [in_profile(posed, root, tilt) for posed, root in zip(front, roots, strict=True)]
+    beside = common_camera(side, width=_BODY_PX)
+    colours = (CLAY, RED, GREEN, CLAY)
+    seen: list[Levels] = []
+    aside: list[Levels] = []
+    for posed, turned, colour in zip(front, side, colours, strict=True):
+        # The true camera may be another than the one that was assumed.
+        own = common_camera([posed], width=_BODY_PX)
+        seen.append(coloured_body(posed, triangles, own, colour))
+        aside.append(coloured_body(turned, triangles, beside, colour))
+    canonical = [each.canonical_vertices for each in stages[1:]]
+    at_rest = [before_onlooker(each, middle_of(each), 0.0) for each in canonical]
+    resting = common_camera(at_rest, width=_BODY_PX + 20)
+    maps = [
+        (f"off {1000 * error.mean():.0f} mm", _error_map(rest, triangles, error, resting))
+        for rest, error in zip(at_rest, errors, strict=True)
+    ]
+    panels = [(pose, to_levels(view.pictures.image)), ("first body", seen[0])]
+    for stage, name in ((1, "SE"), (2, "SES")):
+        panels += [(name, seen[stage]), ("from the right", aside[stage]), maps[stage - 1]]
+    panels += [("truth", seen[3]), ("from the right", aside[3])]
+    return row(panels, height_px=_HEIGHT_PX)
+
+
+def _error_map(
+    vertices: Vertices, triangles: Triangles, error_m: Float[np.ndarray, " m"], camera: Camera
+) -> Levels:
+    at = np.clip(100.0 * error_m / _WORST_CM, 0.0, 1.0) * (len(_STOPS) - 1)
+    low = np.minimum(at.astype(int), len(_STOPS) - 2)
+    share = (at - low)[:, None]
+    colours = (1.0 - share) * _STOPS[low] + share * _STOPS[low + 1]
+    (levels,) = vertex_pictures([colours], render_finely(vertices, triangles, camera))
+    return levels
+
+
+def _outline_stage(result: FitResult) -> FitStage:
+    """The stage by silhouette and edges; the last one where there is none of it."""
+    return next((each for each in result.stages if each.name == "SE"), result.stages[-1])
+
+
+def _measured(stage: FitStage, name: str) -> float:
+    return next(each.value for each in stage.measurements if each.name == name)
+
+
+def reproduce(
+    portrait: FitRequest,
+    subject: Subject,
+    drawn: Callable[[Figure], None],
+    *,
+    painting: FitRequest | None = None,
+) -> tuple[Table, ...]:
+    """Draw everything; return Table 1 by the paper's method, by this package's, and as printed.
+
+    Parameters
+    ----------
+    portrait
+        One person, of Figs. 2, 3, 5, 7 and 9.
+    subject
+        Of Figs. 4 and 8 and of Table 1.
+    drawn
+        Receives each figure as soon as it is there.
+    painting
+        Of Fig. 10; without one there is none.
+
+    Raises
+    ------
+    InvalidInputError
+        If a picture cannot be used.
+    """
+    plain = fitted(portrait, Cues.SE, Paper())
+    drawn(figure_2(portrait, plain))
+    drawn(figure_3(plain))
+    drawn(figure_4(subject.requests[HIDING]))
+    drawn(figure_5(portrait, plain))
+    drawn(figure_6())
+    shaded = fitted(portrait, Cues.SES)
+    drawn(figure_7(shaded))
+    by_paper = [fitted(each, Cues.SES, Paper()) for each in subject.requests.values()]
+    ours = [fitted(each, Cues.SES) for each in subject.requests.values()]
+    drawn(figure_8("figure_8", f"Figure 8: SE and SES, {BY_PAPER}", subject, by_paper))
+    drawn(figure_8("figure_8_ours", f"Figure 8 once more, {BY_OURS}", subject, ours))
+    drawn(figure_9(portrait, shaded))
+    if painting is not None:
+        drawn(figure_10(painting, fitted(painting, Cues.SES)))
     return (
-        f"<table><caption>Table 1 {html.escape(table.title)}</caption>"
-        f"<tr><th></th>{top}</tr><tr><th></th>{kinds}</tr>{rows}</table>"
+        table_1(BY_PAPER, subject, by_paper),
+        table_1(BY_OURS, subject, ours),
+        PRINTED_TABLE,
     )

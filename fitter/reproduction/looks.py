@@ -1,37 +1,30 @@
 """Figs. 6, 7, 9 and 10: shapes, reflectance, and what a fit is good for."""
 
-from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from fitter.applications.caricature import (
-    Caricature,
-    caricature_of_looks,
-    caricature_of_most_unusual,
-)
-from fitter.applications.motion import Motion, grounded, moving_body
+from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
+from fitter.applications.motion import grounded, motion_of_cycle, moving_body
+from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose
-from fitter.applications.previews import View, preview
 from fitter.applications.rig import rig_of
 from fitter.applications.texture import linear_picture, picture_texture
-from fitter.arrays import Shape, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
-from fitter.body.scape import CAMERA_AXES, ScapeEvaluator
 from fitter.body.shape_space import height_of_shape
-from fitter.errors import InvalidInputError
-from fitter.export.antialiasing import render_finely, vertex_pictures
+from fitter.export.body_texture import BodyTexture
+from fitter.export.bundle import reflectance_pictures
 from fitter.export.display import finer, to_levels
 from fitter.export.pictures import overlay_picture
-from fitter.export.views import CANONICAL_DISTANCE_M, turned_about_vertical
+from fitter.export.views import BodyView, before_onlooker, coloured_body, middle_of, preview
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.decoding import decode_picture
-from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
-from fitter.render.rasterizer import render
-from fitter.render.reflectance import shading_terms
-from fitter.reproduction.panels import Figure, Levels, coloured_body, common_camera, row, stacked
+from fitter.render.rasterizer import render, shade_image
+from fitter.reproduction.panels import Figure, Levels, common_camera, row, stacked
 from fitter.request import FitRequest
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Gender
@@ -56,25 +49,19 @@ def figure_6() -> Figure:
     for gender in (Gender.MALE, Gender.FEMALE):
         prepared = prepared_model(gender)
         evaluator = prepared.operators.evaluator
-        views: list[View] = []
+        views: list[BodyView] = []
         titles: list[str] = []
         for axis in range(_AXES):
-            heights = []
-            for sign in (-1.0, 1.0):
-                shape = np.zeros(len(evaluator.model.shape_basis))
-                shape[axis] = sign * DEVIATIONS
-                heights.append(height_of_shape(evaluator, shape))
+            shapes = np.zeros((2, len(evaluator.model.shape_basis)))
+            shapes[:, axis] = -DEVIATIONS, DEVIATIONS
+            for shape in shapes:
                 title = "height axis" if axis == 0 else f"axis {axis}"
-                titles.append(f"{title}: {sign * DEVIATIONS:+.0f} SD")
-                views.append(
-                    View(
-                        label="",
-                        vertices=prepared.measuring.canonical.at(shape),
-                        degrees=30.0,
-                    )
-                )
+                titles.append(f"{title}: {shape[axis]:+.0f} SD")
+                at_rest = prepared.measuring.canonical.at(shape)
+                views.append(BodyView(label="", vertices=at_rest, degrees=30.0))
             if axis:
-                changes.append(1000.0 * abs(heights[1] - heights[0]))
+                low, high = (height_of_shape(evaluator, shape) for shape in shapes)
+                changes.append(1000.0 * abs(high - low))
         panels = np.split(preview(views, evaluator.model.triangles), len(views), axis=1)
         rows.append(row(list(zip(titles, panels, strict=True)), height_px=_ROW_PX))
     return Figure(
@@ -90,24 +77,11 @@ def figure_6() -> Figure:
     )
 
 
-def figure_7(result: FitResult) -> Figure | None:
-    """Albedo, and the picture's brightness by both models; None of a fit without shading."""
-    person = result.person
-    light, reflectance = person.light, person.reflectance
-    if light is None or reflectance is None:
-        return None
+def figure_7(result: FitResult) -> Figure:
+    """Albedo, and the picture's brightness by both models, of a fit with shading."""
     (view,) = result.views
-    fine = render_finely(result.found.posed_vertices, result.triangles, view.camera)
-    terms = shading_terms(
-        result.found.posed_vertices,
-        fine.rendering.vertex_normals,
-        light=light,
-        body_centre=person.body.translation,
-        specular_exponent=reflectance.specular_exponent,
-    )
-    lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
-    phong = lambertian + reflectance.specularity * terms.specular
-    albedo, flat, glossy = vertex_pictures([reflectance.albedo, lambertian, phong], fine)
+    model = prepared_model(result.person.gender).operators.model
+    drawn = reflectance_pictures(result.found, model)
     grey = to_levels(view.pictures.image.mean(axis=2))
     seen = np.where(view.pictures.segmentation, grey, 255).astype(np.uint8)
     return Figure(
@@ -119,103 +93,92 @@ def figure_7(result: FitResult) -> Figure | None:
         ),
         differs=(
             "The specular exponent is 12 for everybody. Albedo is piecewise smooth by the same "
-            "robust term."
+            "robust term, and shown in colour."
         ),
         picture=row(
             [
                 ("brightness of the picture", np.repeat(seen[..., None], 3, axis=2)),
-                ("albedo", albedo),
-                ("Lambert", flat),
-                ("Blinn-Phong", glossy),
+                ("albedo", drawn["albedo.png"]),
+                ("Lambert", drawn["shading_lambertian.png"]),
+                ("Blinn-Phong", drawn["shading.png"]),
             ]
         ),
     )
 
 
-def figure_9(request: FitRequest, result: FitResult, motion: Motion, *, recorded: bool) -> Figure:
-    """Photograph, the body with its texture in poses of a motion, and a caricature.
-
-    ``recorded`` says that the motion is motion capture, not the package's own walk.
-    """
+def figure_9(request: FitRequest, result: FitResult) -> Figure:
+    """Photograph, the body with its texture in poses of a walk, and a caricature."""
     person, evaluator = result.person, prepared_model(request.person.gender).operators.evaluator
-    model = evaluator.model
+    model, shape = evaluator.model, person.body.shape
     pixels = decode_picture(
         request.views[0].image, field="image", max_pixels=request.choices.max_pixels
     ).pixels
     texture = picture_texture(
         person, evaluator, linear_picture(pixels), mask=None, size=TEXTURE_SIZE
     )
-    body = grounded(moving_body(evaluator, person.body.shape, motion), model)
-    frames = [min(round(share * len(body.shapes)), len(body.shapes) - 1) for share in _MOMENTS]
+    rig = rig_of(model, shape)
+    motion = motion_of_cycle(stride_of(rig), rig)
+    body = grounded(moving_body(evaluator, shape, motion), model)
+    frames = [round(share * len(body.shapes)) for share in _MOMENTS]
     seen = [
-        _before_camera(body.vertices(frame), degrees)
+        _turned(body.vertices(frame), degrees)
         for frame, degrees in zip(frames, _DEGREES, strict=True)
     ]
     camera = common_camera(seen)
-    titles = [f"at {frame * motion.frame_time_s:.2f} s" for frame in frames]
-    panels = [
-        (title, textured_body(each, model, texture.levels, camera))
-        for title, each in zip(titles, seen, strict=True)
+    moments = [
+        (
+            f"at {frame * motion.frame_time_s:.2f} s",
+            textured_body(each, model, texture.levels, camera),
+        )
+        for frame, each in zip(frames, seen, strict=True)
     ]
-    shape, canonical = person.body.shape, prepared_model(person.gender).measuring.canonical
-    one = _exaggerated(caricature_of_most_unusual, evaluator, shape, _FACTOR)
-    looks = _exaggerated(caricature_of_looks, evaluator, shape, _LOOKS_FACTOR)
-    resting = [_before_camera(canonical.at(each), 30.0) for each in (shape, one.shape, looks.shape)]
+    one = caricature_of_most_unusual(evaluator, shape, _FACTOR)
+    looks = caricature_of_looks(evaluator, shape, _LOOKS_FACTOR)
+    canonical = prepared_model(person.gender).measuring.canonical
+    resting = [_turned(canonical.at(each), 30.0) for each in (shape, one.shape, looks.shape)]
     at_rest = common_camera(resting)
     plain, changed, whole = (coloured_body(each, model.triangles, at_rest) for each in resting)
     return Figure(
         name="figure_9",
         title="Figure 9: new poses and a caricature",
         caption=(
-            "The picture; the fitted body with the picture's texture at moments of "
-            f"{'a recorded motion' if recorded else 'a walk'}; the body; the same with its most "
-            f"unusual coefficient, number {one.coefficient}, multiplied by {one.factor:g}, as in "
-            f"the paper; and with all but the height's multiplied by {looks.factor:g}. "
-            f"{100 * texture.seen_share:.0f} % of the texture were seen, the rest was mirrored or "
-            "continued."
+            "The picture; the fitted body with the picture's texture at moments of a walk; the "
+            f"body; the same with its most unusual coefficient, number {one.coefficient}, "
+            f"multiplied by {_FACTOR:g}, as in the paper; and with all but the height's "
+            f"multiplied by {_LOOKS_FACTOR:g}. {100 * texture.seen_share:.0f} % of the texture "
+            "were seen, the rest was mirrored or continued."
         ),
         differs=(
             "One coefficient that deviates most often hardly shows, so that all are exaggerated "
-            "too."
-            + (
-                ""
-                if recorded
-                else " The walk is drawn from published curves of gait; motion capture is taken "
-                "as a BVH file."
-            )
+            "too. The walk is drawn from published curves of gait."
         ),
         picture=row(
             [
                 ("picture", to_levels(result.views[0].pictures.image)),
-                *panels,
+                *moments,
                 ("fitted", plain),
-                (f"one coefficient times {one.factor:g}", changed),
-                (f"all times {looks.factor:g}", whole),
+                (f"one coefficient times {_FACTOR:g}", changed),
+                (f"all times {_LOOKS_FACTOR:g}", whole),
             ]
         ),
     )
 
 
-def figure_10(request: FitRequest, result: FitResult, *, pose: str = "walking") -> Figure:
+def figure_10(request: FitRequest, result: FitResult) -> Figure:
     """Painting, overlay, shape, and shape in a new pose."""
     evaluator = prepared_model(request.person.gender).operators.evaluator
     model, (view,) = evaluator.model, result.views
     levels = to_levels(view.pictures.image)
     topology = mesh_topology(model.triangles, vertex_count=len(model.mean_vertices))
-    shape = result.person.body.shape
-    fitted, reposed = (
-        evaluator.body_frame_vertices(
-            BodyParameters(pose=each, translation=np.zeros(3), shape=shape)
-        )
-        for each in (result.person.body.pose, named_pose(rig_of(model, shape), pose))
-    )
+    body = result.person.body
+    rig = rig_of(model, body.shape)
+    bodies = [replace(body, pose=each) for each in (body.pose, named_pose(rig, "walking"))]
+    seen = [_turned(evaluator.body_frame_vertices(each), 0.0) for each in bodies]
+    camera = common_camera(seen)
+    fitted, walking = (coloured_body(each, model.triangles, camera) for each in seen)
     overlay = overlay_picture(
         levels, result.found.posed_vertices, model.triangles, topology, view.camera
     )
-    bodies = preview(
-        [View(label="", vertices=fitted), View(label="", vertices=reposed)], model.triangles
-    )
-    one, other = np.split(bodies, 2, axis=1)
     return Figure(
         name="figure_10",
         title="Figure 10: a painting",
@@ -229,8 +192,8 @@ def figure_10(request: FitRequest, result: FitResult, *, pose: str = "walking") 
             [
                 ("picture", levels),
                 ("fitted body over it", overlay),
-                ("fitted body", one),
-                (pose.replace("_", " "), other),
+                ("fitted body", fitted),
+                ("walking", walking),
             ]
         ),
     )
@@ -239,9 +202,6 @@ def figure_10(request: FitRequest, result: FitResult, *, pose: str = "walking") 
 def textured_body(vertices: Vertices, model: BodyModel, texture: Levels, camera: Camera) -> Levels:
     """A body with its texture before white paper, as it is: unlit.
 
-    The point of a triangle with corners v₁ v₂ v₃ that a pixel's ray d meets has barycentric
-    coordinates in proportion to [v₁ v₂ v₃]⁻¹ d.
-
     Parameters
     ----------
     vertices
@@ -249,51 +209,16 @@ def textured_body(vertices: Vertices, model: BodyModel, texture: Levels, camera:
     texture
         (n, n, 3) levels of the model's atlas.
     """
-    fine = finer(camera, _SAMPLES)
-    rendering = render(vertices, model.triangles, fine)
-    ids = rendering.face_ids
-    rows, columns = np.nonzero(ids >= 0)
-    faces = ids[rows, columns]
-    rays = np.stack(
-        [
-            (columns + 0.5 - fine.centre_x) / fine.focal_length_px,
-            (rows + 0.5 - fine.centre_y) / fine.focal_length_px,
-            np.ones(len(rows)),
-        ],
-        axis=1,
-    )
-    corners = np.swapaxes(vertices[model.triangles[faces]], 1, 2)
-    weights = np.linalg.solve(corners, rays[..., None])[..., 0]
-    weights /= weights.sum(axis=1, keepdims=True)
-    uv = np.einsum("pk,pkc->pc", weights, model.uv[model.uv_triangles[faces]])
-    size = len(texture)
-    texels = np.clip((np.stack([1.0 - uv[:, 1], uv[:, 0]]) * size).astype(int), 0, size - 1)
-    levels = np.full((*ids.shape, 3), 255, dtype=np.float64)
-    levels[rows, columns] = texture[texels[0], texels[1]]
-    height, width = camera.height, camera.width
-    blocks = levels.reshape(height, _SAMPLES, width, _SAMPLES, 3)
+    cut = BodyTexture.of(model, b"", media_type="image/png", is_lit=True)
+    rendering = render(vertices[cut.owners], cut.triangles, finer(camera, _SAMPLES))
+    columns, rows = (shade_image(rendering, along) for along in cut.texels.T)
+    last = len(texture) - 1
+    texels = np.clip(np.stack([rows, columns]) * len(texture), 0, last).astype(int)
+    shown = (rendering.face_ids >= 0)[..., None]
+    levels = np.where(shown, texture[texels[0], texels[1]], 255.0)
+    blocks = levels.reshape(camera.height, _SAMPLES, camera.width, _SAMPLES, 3)
     return np.rint(blocks.mean(axis=(1, 3))).astype(np.uint8)
 
 
-def _exaggerated(
-    exaggerate: Callable[[ScapeEvaluator, Shape, float], Caricature],
-    evaluator: ScapeEvaluator,
-    shape: Shape,
-    factor: float,
-) -> Caricature:
-    """By this factor, or by the largest with which the surface stays sound."""
-    try:
-        return exaggerate(evaluator, shape, factor)
-    except InvalidInputError as error:
-        if error.largest is None:
-            raise
-        return exaggerate(evaluator, shape, error.largest)
-
-
-def _before_camera(vertices: Vertices, degrees: float) -> Vertices:
-    """A body of the body frame as somebody sees it who walked round it."""
-    there = np.array([0.0, 0.0, CANONICAL_DISTANCE_M])
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    return turned_about_vertical(
-        (vertices - 0.5 * (low + high)) * CAMERA_AXES + there, there, degrees
-    )
+def _turned(vertices: Vertices, degrees: float) -> Vertices:
+    return before_onlooker(vertices, middle_of(vertices), degrees)

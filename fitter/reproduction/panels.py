@@ -1,4 +1,4 @@
-"""A figure of the paper drawn anew: labelled pictures side by side, and bodies in colours."""
+"""A figure of the paper drawn anew: labelled pictures side by side."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,17 +6,13 @@ from typing import Final
 
 import cv2
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import UInt8
 
-from fitter.arrays import Image, Mask, Triangles, Vector3, Vertices
-from fitter.export.antialiasing import render_finely, vertex_pictures
+from fitter.arrays import Image, Mask, Vector3, Vertices
 from fitter.export.display import to_levels
 from fitter.export.views import (
     CANONICAL_DISTANCE_M,
-    CLAY,
-    FILL_LIGHT,
     LABEL_COLOUR,
-    TO_LIGHT,
     framing_camera,
     turned_about_vertical,
     under_level_camera,
@@ -48,6 +44,11 @@ class Figure:
     caption: str
     differs: str
     picture: UInt8[np.ndarray, "h w 3"]
+
+    @property
+    def words(self) -> str:
+        """Caption and differences, as Markdown."""
+        return f"{self.caption}\n\n*Different:* {self.differs}"
 
 
 Levels = UInt8[np.ndarray, "_ _ 3"]
@@ -88,28 +89,6 @@ def stacked(rows: Sequence[Levels]) -> Levels:
             for each in rows
         ]
     )
-
-
-def coloured_body(
-    vertices: Vertices,
-    triangles: Triangles,
-    camera: Camera,
-    colour: Float[np.ndarray, "3"] | Float[np.ndarray, "m 3"] = CLAY,
-) -> Levels:
-    """A lit body before white paper.
-
-    Parameters
-    ----------
-    vertices
-        (m, 3) in the camera's frame, metres.
-    colour
-        Linear albedo, of all vertices or of each.
-    """
-    fine = render_finely(vertices, triangles, camera)
-    lit = np.clip(fine.rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
-    shading = FILL_LIGHT + (1.0 - FILL_LIGHT) * lit
-    (levels,) = vertex_pictures([shading[:, None] * colour], fine)
-    return levels
 
 
 def in_profile(

@@ -1,7 +1,6 @@
 """``maquette paper``: the paper's figures and its table, drawn from fits made here and now."""
 
 import io
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -9,19 +8,10 @@ import numpy as np
 
 from api_schemas.fit import FitRequest
 from fitter import request as fitter_request
-from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
-from fitter.reproduction.drawing import (
-    PRINTED_TABLE,
-    Pictures,
-    Reproduction,
-    index_html,
-    reproduce,
-    table_csv,
-)
+from fitter.reproduction.drawing import Subject, reproduce, table_markdown
 from fitter.reproduction.panels import Figure
-from fitter.reproduction.subject import PosedTruth, Subject
 from service.commands.fit import UNUSABLE_INPUT, read_request, told
 from service.compute import translate
 from service.compute.pipeline_port import UnusableInputError
@@ -31,85 +21,74 @@ from service.process.caches import settle_folders
 from service.settings import Settings
 from service.submissions.submission import check_submission
 
-_HIDING: Final = "occluded"
-"""The subject's pose in which an arm hides part of the trunk."""
+_INTRODUCTION: Final = """# The paper, reproduced
+
+The figures and the table of P. Guan, A. Weiss, A. O. Bălan and M. J. Black, Estimating Human Shape
+and Pose from a Single Image, ICCV 2009, drawn from fits of this package. Pictures are rendered
+people, but for a painting that was given. Fig. 1 is an overview of the others.
+"""
+_TABLE_NOTE: Final = """## Table 1
+
+In parentheses the deviation from the truth. The waist is the navel's. The paper's truth differs
+from pose to pose, since it is a fit to each; here it is one body at rest.
+"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PaperArguments:
-    """The command line's arguments: what takes the place of the packaged pictures, and is added.
+def draw_paper(output: Path, painting: tuple[Path, Path] | None, settings: Settings) -> int:
+    """Draw all figures into a folder, with a page of them; return the exit status.
 
-    ``picture`` and ``painting`` are each a picture and a file with its request.
+    ``painting`` is a picture and a file with its request.
     """
-
-    output: Path
-    picture: tuple[Path, Path] | None = None
-    painting: tuple[Path, Path] | None = None
-    motion: Path | None = None
-
-
-def draw_paper(arguments: PaperArguments, settings: Settings) -> int:
-    """Draw all figures into the output folder, with a page of them; return the exit status."""
-    drawn = told(lambda: _drawn(arguments, settings))
-    if drawn is None:
+    page = told(lambda: _drawn(output, painting, settings))
+    if page is None:
         return UNUSABLE_INPUT
-    (arguments.output / "index.html").write_text(index_html(drawn))
-    (arguments.output / "table_1.csv").write_text(table_csv((*drawn.tables, PRINTED_TABLE)))
-    print(f"{arguments.output / 'index.html'} shows them all.")
+    (output / "index.md").write_text(page)
+    print(f"{output / 'index.md'} shows them all.")
     return 0
 
 
-def packaged_pictures(settings: Settings) -> Pictures:
-    """Those that ship with the package, without a painting."""
+def packaged_pictures(settings: Settings) -> tuple[fitter_request.FitRequest, Subject]:
+    """The portrait and the subject that ship with the package."""
     sample, subject = load_sample(), load_subject()
     with np.load(io.BytesIO(subject.bodies), allow_pickle=False) as bodies:
         step_m = float(bodies["step_m"])
         true = {name: step_m * bodies[name] for name in ("canonical", *subject.pictures)}
-    return Pictures(
-        portrait=_request(sample.image, _packaged(sample.request), settings),
-        subject=Subject(
-            pictures=tuple(
-                PosedTruth(
-                    name=name,
-                    request=_request(picture.image, _packaged(picture.request), settings),
-                    posed=true[name],
-                )
-                for name, picture in subject.pictures.items()
-            ),
-            canonical=true["canonical"],
-            measurements=subject.measurements,
-        ),
-        hiding=list(subject.pictures).index(_HIDING),
+
+    def packaged(image: bytes, request: bytes) -> fitter_request.FitRequest:
+        return _request(image, FitRequest.model_validate_json(request), settings)
+
+    return packaged(sample.image, sample.request), Subject(
+        requests={
+            name: packaged(each.image, each.request) for name, each in subject.pictures.items()
+        },
+        posed={name: true[name] for name in subject.pictures},
+        canonical=true["canonical"],
+        measurements=subject.measurements,
     )
 
 
-def _drawn(arguments: PaperArguments, settings: Settings) -> Reproduction:
+def _drawn(output: Path, painting: tuple[Path, Path] | None, settings: Settings) -> str:
+    """A page of the figures, which lie beside it, and of the table."""
     settle_folders()
-    pictures = packaged_pictures(settings)
-    given = {
-        name: _request(image.read_bytes(), read_request(request), settings)
-        for name, files in (("portrait", arguments.picture), ("painting", arguments.painting))
-        if files is not None
-        for image, request in [files]
-    }
-    pictures = replace(pictures, **given)
-    arguments.output.mkdir(parents=True, exist_ok=True)
+    portrait, subject = packaged_pictures(settings)
+    given = None
+    if painting is not None:
+        picture, request = painting
+        given = _request(picture.read_bytes(), read_request(request), settings)
+    output.mkdir(parents=True, exist_ok=True)
+    parts = [_INTRODUCTION]
 
     def keep(figure: Figure) -> None:
-        path = arguments.output / f"{figure.name}.png"
+        path = output / f"{figure.name}.png"
         path.write_bytes(png(figure.picture))
+        parts.append(f"## {figure.title}\n\n![{figure.title}]({path.name})\n\n{figure.words}\n")
         print(f"{path}: {figure.title}")
 
     try:
-        if arguments.motion is not None:
-            pictures = replace(pictures, motion=read_motion(arguments.motion.read_bytes()))
-        return reproduce(pictures, keep)
+        tables = reproduce(portrait, subject, keep, painting=given)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
-
-
-def _packaged(request: bytes) -> FitRequest:
-    return FitRequest.model_validate_json(request)
+    return "\n".join([*parts, _TABLE_NOTE, *map(table_markdown, tables)])
 
 
 def _request(picture: bytes, asked: FitRequest, settings: Settings) -> fitter_request.FitRequest:

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from typing import Final
 
 from api_schemas.products.base import ProductResult
-from fitter.applications.previews import View, preview
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import result_files, tapes_json
 from fitter.export.display import png
+from fitter.export.views import BodyView, preview
 from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
 from fitter.result import FitResult
@@ -54,7 +54,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
 
 def _from_all_round(found: FitResult) -> bytes:
     body = found.canonical_vertices
-    views = [View(label=label, vertices=body, degrees=degrees) for label, degrees in _SEEN_FROM]
+    views = [BodyView(label=label, vertices=body, degrees=degrees) for label, degrees in _SEEN_FROM]
     return png(preview(views, found.triangles))
 
 

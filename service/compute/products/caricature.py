@@ -8,10 +8,10 @@ from api_schemas.products.bodies import (
     Exaggerated,
 )
 from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
-from fitter.applications.previews import View, preview
 from fitter.export.display import png
 from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
+from fitter.export.views import BodyView, preview
 from fitter.person.upright import upright_turn
 from service.compute.pipeline_port import Made
 from service.compute.products import Report
@@ -41,10 +41,10 @@ def make(fit: FinishedFit, options: CaricatureOptions, report: Report) -> Made[C
     )
     picture = preview(
         [
-            View(label="fitted", vertices=fitted),
-            View(label=f"times {found.factor:g}", vertices=exaggerated),
-            View(label="fitted, side", vertices=fitted, degrees=90.0),
-            View(label=f"times {found.factor:g}, side", vertices=exaggerated, degrees=90.0),
+            BodyView(label="fitted", vertices=fitted),
+            BodyView(label=f"times {found.factor:g}", vertices=exaggerated),
+            BodyView(label="fitted, side", vertices=fitted, degrees=90.0),
+            BodyView(label=f"times {found.factor:g}, side", vertices=exaggerated, degrees=90.0),
         ],
         model.triangles,
     )

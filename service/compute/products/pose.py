@@ -5,7 +5,6 @@ import numpy as np
 from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
-from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of
 from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
@@ -13,6 +12,7 @@ from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
 from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
+from fitter.export.views import BodyView, preview
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from service.compute.fit_results import body_result
@@ -60,7 +60,7 @@ def make(fit: FinishedFit, options: PoseOptions, report: Report) -> Made[PoseRes
     texture = texture_for(options.colours, fit)
     report(0.8)
     views = [
-        View(label=label, vertices=vertices, degrees=degrees)
+        BodyView(label=label, vertices=vertices, degrees=degrees)
         for label, degrees in (("front", 0.0), ("side", 90.0))
     ]
     return Made(

@@ -5,17 +5,15 @@ import json
 
 import matplotlib.pyplot as plt
 import numpy as np
-from IPython.display import HTML, Markdown, display
 from IPython.display import Image as ShownImage
+from IPython.display import Markdown, display
 from PIL import Image
 
 from fitter import Click, FitRequest, Gender, Person, View
-from fitter.applications.previews import View as BodyView
-from fitter.applications.previews import preview
 from fitter.arrays import Triangles, Vertices
-from fitter.reproduction.drawing import table_html
+from fitter.export.views import BodyView, preview
+from fitter.reproduction.drawing import Table, table_markdown
 from fitter.reproduction.panels import Figure
-from fitter.reproduction.subject import Table
 from service.demo_data.sample import FOLDER
 
 DPI = 100
@@ -77,9 +75,9 @@ def show_figure(figure: Figure) -> None:
     picture.save(stream, "JPEG", quality=QUALITY, optimize=True)
     display(Markdown(f"**{figure.title}**"))
     display(ShownImage(data=stream.getvalue(), format="jpeg", alt=figure.title))
-    display(Markdown(f"{figure.caption}\n\n*Different:* {figure.differs}"))
+    display(Markdown(figure.words))
 
 
 def show_table(table: Table) -> None:
     """Table 1 by one method."""
-    display(HTML(table_html(table)))
+    display(Markdown(table_markdown(table)))

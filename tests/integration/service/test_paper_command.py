@@ -13,26 +13,21 @@ FIGURES = ("2", "3", "4", "5", "6", "7", "8", "8_ours", "9", "10")
 
 
 def test_every_figure_and_the_table_are_drawn(tmp_path):
-    """Of a picture whose points are proposed, and of one that is given as a painting."""
     sample = load_woman()
     (tmp_path / "painting.jpg").write_bytes(sample.image)
     (tmp_path / "painting.json").write_bytes(sample.request)
     out = tmp_path / "out"
-    proposed = json.loads(sample.request) | {"views": [{"points": "auto"}]}
-    (tmp_path / "proposed.json").write_text(json.dumps(proposed))
     painting = ["--painting", str(tmp_path / "painting.jpg"), str(tmp_path / "painting.json")]
-    picture = ["--picture", str(tmp_path / "painting.jpg"), str(tmp_path / "proposed.json")]
     with pytest.raises(SystemExit) as ended:
-        main(["paper", "--output", str(out), *painting, *picture])
+        main(["paper", "--output", str(out), *painting])
     assert ended.value.code == 0
-    page = (out / "index.html").read_text()
+    page = (out / "index.md").read_text()
     for number in FIGURES:
         picture = Image.open(io.BytesIO((out / f"figure_{number}.png").read_bytes()))
         assert picture.width > 600
-        assert f'src="figure_{number}.png"' in page
-    assert page.count("<em>Different:</em>") == len(FIGURES)
-    lines = (out / "table_1.csv").read_text().splitlines()
-    assert len(lines) == 1 + 3 * 3
+        assert f"(figure_{number}.png)" in page
+    assert page.count("*Different:*") == len(FIGURES)
+    assert page.count("**Table 1 ") == 3
 
 
 def test_a_picture_that_cannot_be_used_is_told(tmp_path, capsys):
@@ -42,6 +37,6 @@ def test_a_picture_that_cannot_be_used_is_told(tmp_path, capsys):
     (tmp_path / "p.json").write_text(json.dumps(request))
     given = [str(tmp_path / "p.jpg"), str(tmp_path / "p.json")]
     with pytest.raises(SystemExit) as ended:
-        main(["paper", "--output", str(tmp_path / "out"), "--picture", *given])
+        main(["paper", "--output", str(tmp_path / "out"), "--painting", *given])
     assert ended.value.code == 2
     assert "points" in capsys.readouterr().out

@@ -4,7 +4,9 @@ import pytest
 from fitter.export.views import (
     PANEL_HEIGHT_PX,
     PANEL_WIDTH_PX,
+    BodyView,
     framing_camera,
+    preview,
     turned_about_vertical,
     under_level_camera,
     views_picture,
@@ -64,3 +66,30 @@ def test_four_panels_show_a_thin_body_wide_from_the_front_and_thin_from_the_side
     widths = [int(panel.any(axis=0).sum()) for panel in np.split(below_labels, 4, axis=1)]
     assert widths[0] > 4 * widths[1]
     assert widths[2] > 4 * widths[3]
+
+
+def drawn(panel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and columns of what is drawn below the label."""
+    rows, columns = np.nonzero((panel[40:] < 250).any(axis=2))
+    return rows + 40, columns
+
+
+def test_bodies_stand_on_one_ground_in_one_scale_and_turn_before_the_onlooker():
+    ball, triangles = sphere(radius=0.5, rings=30, sides=60)
+    slab = ball * [1.0, 1.8, 0.3] + [3.0, 7.0, -2.0]  # wherever it lies
+    small = 0.5 * slab
+    picture = preview(
+        [
+            BodyView(label="slab", vertices=slab),
+            BodyView(label="slab, side", vertices=slab, degrees=90.0),
+            BodyView(label="small", vertices=small),
+        ],
+        triangles,
+    )
+    assert picture.shape == (PANEL_HEIGHT_PX, 3 * PANEL_WIDTH_PX, 3)
+    extents = [drawn(panel) for panel in np.split(picture, 3, axis=1)]
+    front, side, half = (np.ptp(columns) + 1 for _, columns in extents)
+    assert side == pytest.approx(0.3 * front, rel=0.05)
+    assert half == pytest.approx(0.5 * front, rel=0.05)
+    soles = [rows.max() for rows, _ in extents]
+    assert max(soles) - min(soles) <= 4

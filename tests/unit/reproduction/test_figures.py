@@ -7,9 +7,9 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
+from fitter.reproduction.drawing import displacements_m
 from fitter.reproduction.looks import textured_body
 from fitter.reproduction.panels import overlaps, row
-from fitter.reproduction.subject import displacements_m
 from fitter.vocabulary.choices import Gender
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=200.0, centre_y=260.0, width=400, height=520)

@@ -1,16 +1,19 @@
-"""Figs. 2 and 3: the first pose from the clicks, and the person cut out around it."""
+"""Figs. 2 to 5: the first pose, the person cut out, and what outline, edges and height can tell."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import cv2
 import numpy as np
 
-from fitter.arrays import Points3D, Shape
-from fitter.body.model import regress
+from fitter.arrays import Shape
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
+from fitter.energies.fitting_operators import FittingOperators
+from fitter.evidence.edge_cost import edge_cost_map
 from fitter.export.display import to_levels
-from fitter.fits.pipeline import PACKAGED
+from fitter.export.views import coloured_body
+from fitter.fits.pipeline import PACKAGED, fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
@@ -23,24 +26,32 @@ from fitter.pose_init.limbs import limb_lengths_m
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk import trunk_points
 from fitter.render.camera import Camera
+from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
 from fitter.reproduction.panels import (
+    GREEN,
+    MAGENTA,
+    RED,
     Figure,
     Levels,
-    coloured_body,
     common_camera,
     in_profile,
+    overlaps,
     row,
+    stacked,
     tinted,
 )
-from fitter.request import FitRequest
+from fitter.request import FitRequest, Paper
 from fitter.result import FitResult
 from fitter.segmentation.trimap import trimap_picture
-from fitter.vocabulary.choices import Facing
+from fitter.vocabulary.choices import Cues, Facing, PaperEnergy
 
 _PROFILE_DEGREES = 70.0
 _SILHOUETTE, _PERSON = (0.95, 0.75, 0.1), (0.1, 0.8, 0.3)
 _CLICK, _HALO = (40, 230, 90), (0, 0, 0)
+_EDGE_LINE = (230, 30, 30)
+_EDGE_THRESHOLD_M = 0.03
+_WITHOUT_EDGES = frozenset({PaperEnergy.SILHOUETTE, PaperEnergy.PENETRATION})
 
 
 def figure_2(request: FitRequest, result: FitResult) -> Figure:
@@ -68,8 +79,6 @@ def figure_2(request: FitRequest, result: FitResult) -> Figure:
         in_profile(evaluator.vertices(each), each.translation, tilt, degrees=_PROFILE_DEGREES)
         for each in bodies
     ]
-    fitted = _joints(evaluator, found.found.person.body)
-    off = [_distance_cm(_joints(evaluator, each), fitted) for each in bodies]
     triangles = evaluator.model.triangles
     turned = common_camera(seen)
     panels = [coloured_body(each, triangles, turned) for each in seen]
@@ -79,9 +88,7 @@ def figure_2(request: FitRequest, result: FitResult) -> Figure:
         caption=(
             "The clicks; then the mean body of the height in the pose that they give, seen from "
             "another side, by the orthographic construction [24], by the perspective one [15], and "
-            "after refinement on the clicks, with which fits begin. Joints lie "
-            f"{off[0]:.1f}, {off[1]:.1f} and {off[2]:.1f} cm from those of the fitted body, root "
-            "on root."
+            "after refinement on the clicks, with which fits begin."
         ),
         differs=(
             "Each takes the reading of the clicks that joint limits like best. The paper shows no "
@@ -103,11 +110,11 @@ def figure_3(result: FitResult) -> Figure:
     (view,) = result.views
     pictures, first = view.pictures, result.stages[0].bodies[0]
     silhouette = render(first.posed_vertices, result.triangles, view.camera).silhouette
-    panels = [("first body's silhouette", tinted(pictures.image, silhouette, _SILHOUETTE))]
-    if pictures.trimap is not None:
-        panels.append(("tri-map", to_levels(trimap_picture(pictures.trimap))))
+    assert pictures.trimap is not None, "the paper's method cuts the person out"
     mask = np.repeat(np.where(pictures.segmentation, 255, 0).astype(np.uint8)[..., None], 3, axis=2)
-    panels += [
+    panels = [
+        ("first body's silhouette", tinted(pictures.image, silhouette, _SILHOUETTE)),
+        ("tri-map", to_levels(trimap_picture(pictures.trimap))),
         ("GrabCut", mask),
         ("over the picture", tinted(pictures.image, pictures.segmentation, _PERSON)),
     ]
@@ -165,16 +172,6 @@ def _lifted_both_ways(
     return bodies
 
 
-def _joints(evaluator: ScapeEvaluator, body: BodyParameters) -> Points3D:
-    """About the root, in the camera's axes, metres."""
-    joints = regress(evaluator.model.joint_regressor, evaluator.vertices(body))
-    return joints - joints[0]
-
-
-def _distance_cm(first: Points3D, second: Points3D) -> float:
-    return 100.0 * float(np.linalg.norm(first - second, axis=1).mean())
-
-
 def _with_clicks(picture: np.ndarray, clicks: ClickedPoints) -> Levels:
     levels = to_levels(picture)
     radius = max(3, round(levels.shape[0] / 130))
@@ -183,3 +180,119 @@ def _with_clicks(picture: np.ndarray, clicks: ClickedPoints) -> Levels:
         cv2.circle(levels, at, radius + 2, _HALO, -1, cv2.LINE_AA)
         cv2.circle(levels, at, radius, _CLICK, -1, cv2.LINE_AA)
     return levels
+
+
+def figure_4(request: FitRequest) -> Figure:
+    """Without and with the edges of the picture: of somebody part of whom hides another."""
+    without = fitted(request, Cues.SE, Paper(energies=_WITHOUT_EDGES))
+    with_edges = fitted(request, Cues.SE, Paper())
+    operators = prepared_model(request.person.gender).operators
+    found = (without, with_edges)
+    seen = [
+        in_profile(
+            each.found.posed_vertices, each.person.body.translation, each.person.tilt, degrees=60.0
+        )
+        for each in found
+    ]
+    camera = common_camera(seen)
+    rows = [
+        row(
+            [
+                ("picture", to_levels(each.views[0].pictures.image)),
+                ("edge cost, the body's edges", _edges_over_cost(each, operators)),
+                ("overlap", _overlap(each)),
+                (title, coloured_body(body, each.triangles, camera, colour)),
+            ]
+        )
+        for each, body, title, colour in zip(
+            found,
+            seen,
+            ("silhouette alone, from the right", "with edges, from the right"),
+            (RED, GREEN),
+            strict=True,
+        )
+    ]
+    costs = [each.energies["silhouette"] for each in found]
+    return Figure(
+        name="figure_4",
+        title="Figure 4: edges inside the silhouette",
+        caption=(
+            "Above, a fit by silhouette and penetration; below, by edges too. The body's edges "
+            "(red) over the cost of edges of the picture (dark is cheap); the overlap of both "
+            "silhouettes (yellow), with what the picture has alone (blue) and the body alone "
+            f"(red); the body from the right. The silhouette costs {costs[0]:.1f} nats above and "
+            f"{costs[1]:.1f} below."
+        ),
+        differs=(
+            "Terms have the weights of this package. A rendered person in a room takes the place "
+            "of the laboratory's."
+        ),
+        picture=stacked(rows),
+    )
+
+
+def figure_5(request: FitRequest, held: FitResult) -> Figure:
+    """The height free and held, of the same picture; ``held`` is the fit by E1 that holds it."""
+    free = fitted(request, Cues.SE, Paper(free_height=True))
+    bodies = (free, held)
+    front = [each.found.posed_vertices for each in bodies]
+    side = [
+        in_profile(each.found.posed_vertices, each.person.body.translation, each.person.tilt)
+        for each in bodies
+    ]
+    in_front, beside = common_camera(front), common_camera(side)
+    triangles = held.triangles
+    panels: list[tuple[str, Levels]] = [("picture", to_levels(held.views[0].pictures.image))]
+    for label, colour, index in (("free", MAGENTA, 0), ("held", GREEN, 1)):
+        title = f"height {label}: {100 * bodies[index].found.height_m:.0f} cm"
+        panels += [
+            (title, coloured_body(front[index], triangles, in_front, colour)),
+            ("from the right", coloured_body(side[index], triangles, beside, colour)),
+        ]
+    return Figure(
+        name="figure_5",
+        title="Figure 5: the height, free and held",
+        caption=(
+            "Fits of one picture by silhouette, edges and penetration. With the height free "
+            f"(magenta) the silhouettes overlap by {100 * free.found.silhouette_overlap:.1f} %, "
+            f"with the height held (green) by {100 * held.found.silhouette_overlap:.1f} %: from "
+            "the camera both explain the picture, from the side they differ."
+        ),
+        differs=(
+            "Perspective ties size to distance: a taller body stands farther away. How much the "
+            "bodies differ depends on the picture."
+        ),
+        picture=row(panels),
+    )
+
+
+def fitted(request: FitRequest, cues: Cues, paper: Paper | None = None) -> FitResult:
+    """A fit, by the paper's method if that is given; what is doubtful is shown too."""
+    return fit(
+        replace(
+            request,
+            views=tuple(replace(view, cues=cues) for view in request.views),
+            choices=replace(request.choices, paper=paper, force=True),
+        )
+    )
+
+
+def _edges_over_cost(result: FitResult, operators: FittingOperators) -> Levels:
+    (view,) = result.views
+    body = view.found.person.body
+    pixels_per_metre = view.camera.focal_length_px / float(body.translation[2])
+    cost = edge_cost_map(
+        view.pictures.image, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre
+    ).cost
+    levels = np.ascontiguousarray(np.repeat(to_levels(cost)[..., None], 3, axis=2))
+    rendering = render(view.found.posed_vertices, result.triangles, view.camera)
+    edges = model_edges(rendering, operators.topology)
+    for start, end in np.rint(edges.endpoints[edges.visible] - 0.5).astype(int):
+        cv2.line(levels, start.tolist(), end.tolist(), _EDGE_LINE, 2, cv2.LINE_AA)
+    return levels
+
+
+def _overlap(result: FitResult) -> Levels:
+    (view,) = result.views
+    body = render(view.found.posed_vertices, result.triangles, view.camera).silhouette
+    return overlaps(body, view.pictures.segmentation)
