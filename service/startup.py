@@ -68,8 +68,8 @@ def _told(error: Exception) -> tuple[int, str] | None:
     # Imported once something has failed: an estimator has no database, and this loads all of it.
     from sqlalchemy.exc import OperationalError
 
-    from service.blobs import BlobsUnavailableError, StorageUnusableError
-    from service.jobs.port import DatabaseUnusableError, EngineUnavailableError
+    from service.jobs.blobs import BlobsUnavailableError, StorageUnusableError
+    from service.jobs.records import DatabaseUnusableError, EngineUnavailableError
 
     if isinstance(error, DatabaseUnusableError | StorageUnusableError | SettingError):
         return UNUSABLE_SETTINGS, str(error)

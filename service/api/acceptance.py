@@ -17,8 +17,15 @@ from service.api.context import ApiContext
 from service.api.fit_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.storage import disk_full, erase_at_once, storing
-from service.jobs.port import FIT, Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
-from service.jobs.states import ACTIVE
+from service.jobs.records import (
+    ACTIVE,
+    FIT,
+    Idempotency,
+    JobRecord,
+    NewJob,
+    Submission,
+    SubmitOutcome,
+)
 from service.representation.jobs import POLL_AFTER_S, fit_path
 
 MAX_WAIT_S: Final = 60
@@ -122,9 +129,9 @@ def _reserve(
     context: ApiContext, fit_id: str, inputs: Inputs, key: Idempotency | None
 ) -> Submission:
     if context.disk.has_room_for(inputs.size):
-        return context.jobs.reserve(fit_id, key)
+        return context.jobs.submissions.reserve(fit_id, key)
     # Not even the scope is recorded; but repeating an earlier answer takes no space.
-    repeated = context.jobs.repeated(key)
+    repeated = context.jobs.submissions.repeated(key)
     if repeated is None:
         raise disk_full()
     return repeated
@@ -144,7 +151,7 @@ def _store(context: ApiContext, fit_id: str, inputs: Inputs, key: Idempotency | 
         webhook=stored.webhook,
     )
     # If the database goes away before it answers, it may have accepted the job: the blobs stay.
-    submission = context.jobs.submit(job)
+    submission = context.jobs.submissions.submit(job)
     if submission.outcome is not SubmitOutcome.ACCEPTED:
         erase_at_once(context.blobs, fit_id)
     return submission

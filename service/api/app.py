@@ -41,8 +41,8 @@ from service.api.readiness import checks as readiness_checks
 from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
-from service.blobs import BlobStore
-from service.jobs.dbos_jobs import JobEngine
+from service.jobs.blobs import BlobStore
+from service.jobs.engine import JobEngine
 from service.jobs.keys import KeyRing
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk

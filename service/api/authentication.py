@@ -13,7 +13,7 @@ from service.api.credentials import KeyUses, KnownKeys
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
 from service.jobs.keys import ApiKey, Role
-from service.jobs.port import EngineUnavailableError
+from service.jobs.records import EngineUnavailableError
 
 OPEN: Final = ("/healthz/", "/problems/", "/docs", "/documentation", "/openapi.json", "/page/")
 """Prefixes of public paths: they show nothing that belongs to a tenant."""

@@ -10,10 +10,9 @@ from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.metrics import ServiceMetrics
 from service.api.readiness import Readiness
-from service.blobs import BlobStore
-from service.jobs.dbos_jobs import JobEngine
+from service.jobs.blobs import BlobStore
+from service.jobs.engine import JobEngine, TenantJobs
 from service.jobs.images import TenantImages
-from service.jobs.tenant_jobs import TenantJobs
 from service.process.data_folder import Disk
 from service.settings import Settings
 from service.submissions.image_header import ReadHeader

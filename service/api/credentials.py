@@ -14,7 +14,7 @@ from typing import Final
 from anyio import CapacityLimiter, to_thread
 
 from service.jobs.keys import ApiKey, KeyRing, hash_key
-from service.jobs.port import EngineUnavailableError
+from service.jobs.records import EngineUnavailableError
 
 LOG: Final = logging.getLogger(__name__)
 

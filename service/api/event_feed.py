@@ -8,8 +8,8 @@ from typing import Final
 
 from starlette.concurrency import run_in_threadpool
 
-from service.jobs.dbos_jobs import JobEngine
-from service.jobs.port import EngineUnavailableError
+from service.jobs.engine import JobEngine
+from service.jobs.records import EngineUnavailableError
 
 LOG: Final = logging.getLogger(__name__)
 

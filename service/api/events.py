@@ -12,9 +12,8 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import EventData, EventKind
 from service.api.context import ApiContext
-from service.jobs.port import EngineUnavailableError, JobEvent, JobRecord
-from service.jobs.states import TERMINAL
-from service.jobs.tenant_jobs import TenantJobs
+from service.jobs.engine import TenantJobs
+from service.jobs.records import TERMINAL, EngineUnavailableError, JobEvent, JobRecord
 
 PING_S: Final = 15.0
 AWAY_PAUSE_S: Final = 1.0

@@ -17,8 +17,8 @@ from service.api.json_bodies import JSON
 from service.api.problems import ProblemError, documented, not_found
 from service.api.renditions import JPEG, Rendition, is_negotiated
 from service.api.security_headers import STAND_ALONE
-from service.blobs import BlobMissingError
-from service.jobs.port import StoredBlob
+from service.jobs.blobs import BlobMissingError
+from service.jobs.records import StoredBlob
 from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL
 

@@ -7,7 +7,7 @@ from api_schemas.jobs import WebhookTarget
 from service.api.context import ApiContext
 from service.api.json_bodies import JSON
 from service.api.storage import erase_at_once
-from service.jobs.port import StoredBlob
+from service.jobs.records import StoredBlob
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

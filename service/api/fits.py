@@ -40,10 +40,9 @@ from service.api.listing import (
 from service.api.problems import ProblemError, documented, not_found
 from service.api.renditions import chosen_rendition
 from service.api.storage import erase_blobs
+from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
-from service.jobs.port import JobRecord
-from service.jobs.states import ACTIVE, TERMINAL
-from service.jobs.tenant_jobs import TenantJobs
+from service.jobs.records import ACTIVE, TERMINAL, JobRecord
 from service.representation.jobs import FITS, POLL_AFTER_S, represent
 from service.representation.results import result_json
 

@@ -25,7 +25,7 @@ from service.api.problems import ProblemError, documented, not_found
 from service.api.renditions import picture_rendition
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
 from service.api.uploads import picture_form, read_image
-from service.blobs import BlobMissingError, BlobsUnavailableError
+from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
 from service.jobs.images import (
     ImageQuotaError,
     ImageRecord,
@@ -33,7 +33,7 @@ from service.jobs.images import (
     NewImage,
 )
 from service.jobs.inputs import IMAGE
-from service.jobs.port import StoredBlob
+from service.jobs.records import StoredBlob
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 

@@ -18,10 +18,9 @@ from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
 from api_schemas.jobs import JobState
-from service.jobs.dbos_jobs import JobEngine
-from service.jobs.port import EngineUnavailableError
-from service.jobs.states import TERMINAL
-from service.jobs.statistics import BOUNDS_S
+from service.jobs.engine import JobEngine
+from service.jobs.records import TERMINAL, EngineUnavailableError
+from service.jobs.rows import BOUNDS_S
 from service.process.data_folder import Disk
 
 AVAILABLE: Final = ("maquette_database_available", "Whether this process reaches the database.")

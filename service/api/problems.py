@@ -19,8 +19,8 @@ from api_schemas.problems import (
     field_problem,
     problem,
 )
-from service.blobs import BlobsUnavailableError, StorageFullError
-from service.jobs.port import EngineFullError, EngineUnavailableError, JobExpiredError
+from service.jobs.blobs import BlobsUnavailableError, StorageFullError
+from service.jobs.records import EngineFullError, EngineUnavailableError, JobExpiredError
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import field_problems
 

@@ -33,8 +33,7 @@ from service.api.renditions import chosen_rendition
 from service.api.storage import disk_full, erase_at_once, storing
 from service.api.uploads import MULTIPART, file_part, read_request_and_files
 from service.jobs.inputs import RESULT, product_inputs
-from service.jobs.port import JobRecord, NewProduct, StoredBlob, Submission, SubmitOutcome
-from service.jobs.states import ACTIVE
+from service.jobs.records import ACTIVE, JobRecord, StoredBlob, Submission, SubmitOutcome
 from service.representation.jobs import FITS, POLL_AFTER_S
 from service.representation.products import (
     PRODUCTS,
@@ -117,7 +116,7 @@ async def make_product(
     product = accepted_job(submission)
     wait_s = preferred_wait_s(prefer)
     if wait_s > 0:
-        look = partial(context.jobs.products(fit.id).product, asked)
+        look = partial(context.jobs.product, fit.id, asked)
         product = await wait_for_end(context, product, look, wait_s=wait_s)
         response.headers["Preference-Applied"] = f"wait={wait_s}"
     response.headers["Location"] = product_path(fit.id, asked)
@@ -228,8 +227,8 @@ def _submit(
     sent: _Sent | None,
 ) -> Submission:
     """Have the product made unless it is there; its inputs are the fit's own files."""
-    products = context.jobs.products(fit.id)
-    room = products.room(asked)
+    submissions = context.jobs.submissions
+    room = submissions.room_for_product(fit.id, asked)
     if room.outcome is not SubmitOutcome.ACCEPTED:
         return room
     text = options.model_dump_json().encode()
@@ -240,15 +239,14 @@ def _submit(
         return StoredBlob(digest=context.blobs.put(fit.id, content), media_type=media_type)
 
     part = {} if sent is None else {sent.name: stored(sent.content, sent.media_type)}
-    submission = products.submit(
-        NewProduct(
-            id=asked,
-            kind=options.kind,
-            options=stored(text, JSON),
-            inputs=product_inputs(fit.files) | part,
-            request_id=context.request_id,
-        )
+    job = NewJob(
+        id=str(uuid4()),
+        kind=options.kind,
+        options=stored(text, JSON),
+        inputs=product_inputs(fit.files) | part,
+        request_id=context.request_id,
     )
+    submission = submissions.submit_product(fit.id, asked, job)
     if submission.outcome is SubmitOutcome.FIT_GONE:
         # What was just stored came after the rest of its files was erased.
         erase_at_once(context.blobs, fit.id)
@@ -256,7 +254,7 @@ def _submit(
 
 
 def _find(context: ApiContext, fit: JobRecord, asked: str) -> JobRecord:
-    product = context.jobs.products(fit.id).product(asked)
+    product = context.jobs.product(fit.id, asked)
     if product is None:
         raise not_found(what="such product of this fit")
     return product

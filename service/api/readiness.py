@@ -16,9 +16,9 @@ from typing import Final
 from api_schemas.problems import problem
 from api_schemas.service import Ready
 from service.api.problems import ProblemError
-from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
-from service.jobs.dbos_jobs import JobEngine
-from service.jobs.port import WorkerStatus
+from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.engine import JobEngine
+from service.jobs.records import WorkerStatus
 from service.process.data_folder import Disk
 
 ANSWER_WITHIN_S: Final = 1.5

@@ -15,7 +15,7 @@ from api_schemas.problems import problem
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
 from service.jobs.inputs import IMAGE, RESULT
-from service.jobs.port import StoredBlob
+from service.jobs.records import StoredBlob
 from service.representation.csv_tables import CSV, TABLE
 from service.representation.formats import (
     GLB,

@@ -6,8 +6,8 @@ from typing import Final
 
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
-from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
-from service.jobs.port import EngineFullError
+from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.records import EngineFullError
 
 RETRY_WHEN_FULL_S: Final = 60
 """Somebody has to make room first."""

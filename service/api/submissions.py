@@ -27,13 +27,13 @@ from service.api.json_bodies import JSON, json_content, media_type, read_json_te
 from service.api.problems import documented
 from service.api.uploads import MULTIPART, PICTURE_TYPES, file_part, read_fit_form
 from service.estimates.questions import BodyTask
+from service.jobs.addresses import target_fault
 from service.jobs.inputs import SentPicture
 from service.representation.jobs import FITS, represent
 from service.submissions.detector import check_detector
 from service.submissions.refusal import of_view, refused
 from service.submissions.submission import CheckedSubmission, check_submission
 from service.submissions.validation import parsed
-from service.webhooks.notices import check_webhook
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
@@ -200,7 +200,9 @@ def _checked(
     checked = check_submission(
         asked, sent, max_pixels=context.settings.max_pixels, read=context.read_header
     )
-    check_webhook(asked.webhook, context.settings)
+    fault = None if asked.webhook is None else target_fault(asked.webhook, context.settings)
+    if fault is not None:
+        raise refused(fault)
     check_detector(asked, context.settings.detector_dir)
     return checked
 

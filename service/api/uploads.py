@@ -13,7 +13,7 @@ from api_schemas.problems import FieldProblem, field_problem, problem
 from service.api.json_bodies import JSON, json_content, media_type, unsupported
 from service.api.problems import ProblemError
 from service.api.storage import disk_full
-from service.blobs.local import FULL
+from service.jobs.blobs_local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
 FEW_PARTS: Final = 3

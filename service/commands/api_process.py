@@ -11,17 +11,17 @@ import sqlalchemy as sa
 
 from service.api.app import create_app
 from service.api.server import ApiServer
-from service.blobs import BlobStore, setting_of_storage
+from service.jobs.blobs import BlobStore, setting_of_storage
 from service.jobs.database import open_database, prepare_database
-from service.jobs.dbos_jobs import JobEngine
+from service.jobs.engine import JobEngine
 from service.jobs.keys import KeyRing
-from service.jobs.notices import NoticeRunner
+from service.jobs.notices import NoticeRunner, Sender
 from service.jobs.storage_identity import take_storage
 from service.numerics.header_lane import header_lane
 from service.numerics.quick_lane import Ask
 from service.process.data_folder import open_disk
+from service.representation.jobs import represent
 from service.settings import Settings
-from service.webhooks.notices import Sender
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +56,10 @@ def assemble(settings: Settings, blobs: BlobStore, ask: Ask) -> ApiProcess:
     database = open_database(url)
     engine = _engine(settings, database, blobs)
     sender = Sender(
-        blobs, secret=settings.webhook_secret, allowed_hosts=settings.allowed_webhook_hosts
+        blobs,
+        represent,
+        secret=settings.webhook_secret,
+        allowed_hosts=settings.allowed_webhook_hosts,
     )
     draining = threading.Event()
     app = create_app(

@@ -17,7 +17,7 @@ from service.compute.pipeline_port import (
     load_pipeline,
 )
 from service.jobs.inputs import SentPicture
-from service.jobs.port import Report
+from service.jobs.records import Report
 from service.process.caches import settle_folders
 from service.representation.csv_tables import TABLE, measurements_csv
 from service.representation.formats import GLB_ENDING

@@ -1,7 +1,7 @@
 """What API and workers expect to exist before they start: created by ``maquette prepare``."""
 
-from service.blobs import BlobStore, open_blob_store, setting_of_storage
 from service.compute.models_reading import check_detector, check_models
+from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
 from service.jobs.database import check_database, prepare_database
 from service.jobs.storage_identity import check_storage, make_storage, take_storage
 from service.process.data_folder import prepare_data_folder

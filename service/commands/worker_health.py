@@ -6,11 +6,10 @@ from typing import Final
 import sqlalchemy as sa
 
 from service.commands.api_health import unhealthy
-from service.jobs.availability import available
-from service.jobs.database import open_database
-from service.jobs.liveness import WORKERS_SEEN, WorkerWatch, this_machine
-from service.jobs.port import DatabaseUnusableError, EngineUnavailableError
-from service.jobs.tables import UNABLE_WORKERS, WORKERS
+from service.jobs.database import available, open_database
+from service.jobs.liveness import WorkerWatch, this_machine
+from service.jobs.records import DatabaseUnusableError, EngineUnavailableError
+from service.jobs.tables import WORKERS
 from service.settings import Settings
 
 LATE_S: Final = 10.0
@@ -39,8 +38,7 @@ def _fault(settings: Settings) -> str | None:
     """What is wrong with the workers of this machine, None if one of them is well."""
     database = open_database(settings.system_database_url, connections=1)
     try:
-        inspector = sa.inspect(database)
-        if not all(inspector.has_table(table.name) for table in (WORKERS, UNABLE_WORKERS)):
+        if not sa.inspect(database).has_table(WORKERS.name):
             return NOT_ALIVE
         return _fault_in(database, settings)
     finally:
@@ -48,7 +46,7 @@ def _fault(settings: Settings) -> str | None:
 
 
 def _fault_in(database: sa.Engine, settings: Settings) -> str | None:
-    query = WORKERS_SEEN.where(WORKERS.c.machine == this_machine())
+    query = sa.select(WORKERS).where(WORKERS.c.machine == this_machine())
     watch = WorkerWatch(dead_after_s=settings.dead_after_s)
     began = time.monotonic()
     before: dict[str, int] | None = None

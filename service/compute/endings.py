@@ -1,8 +1,8 @@
 """Problems for attempts that no pipeline ended, as reported to callers."""
 
 from api_schemas.problems import Problem, problem
-from service.blobs import BlobsUnavailableError, StorageFullError
-from service.jobs.port import Ending
+from service.jobs.blobs import BlobsUnavailableError, StorageFullError
+from service.jobs.records import Ending
 
 
 def ending_by(reason: Problem) -> Ending:

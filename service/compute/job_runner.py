@@ -9,7 +9,6 @@ from typing import Final, ParamSpec, TypeVar
 from pydantic import ValidationError
 
 from api_schemas.results import ResultFile
-from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.compute.endings import (
     ending_by,
     fault,
@@ -21,15 +20,9 @@ from service.compute.endings import (
 )
 from service.compute.files import describe_file
 from service.compute.tasks import OPTIONS, PRODUCT, SECONDS, STAGE_SECONDS
-from service.jobs.port import (
-    FIT,
-    Attempt,
-    AttemptResult,
-    Directive,
-    Ending,
-    JobRecord,
-    Report,
-)
+from service.jobs.attempts import Attempt
+from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
+from service.jobs.records import FIT, AttemptResult, Directive, Ending, JobRecord, Report
 from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
 from service.numerics.messages import (
     DoneMessage,

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final, NoReturn
 
-from service.blobs import open_blob_store, setting_of_storage
-from service.compute.job_runner import JobRunner
 from service.compute.models_reading import COMMAND as MODELS_COMMAND
 from service.compute.models_reading import ModelsBeingRead, check_detector, check_models
+from service.jobs.blobs import open_blob_store, setting_of_storage
 from service.numerics.fork_server import ForkServer, settle_environment
 from service.numerics.quick_lane import QuickLane, answer_questions
 from service.numerics.tasks import child_setup
@@ -60,15 +59,15 @@ def run_worker(
     else:
         server = _answering(settings, questions_at, estimates, secretless, preload)
     setup = child_setup(settings, name="job", tasks=pipeline, niceness=NICENESS)
-    runner = JobRunner(settings, blobs, server, setup)
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
+    from service.compute.job_runner import JobRunner
     from service.jobs.database import open_database, prepare_database
     from service.jobs.storage_identity import take_storage
 
     prepare_database(settings.system_database_url)
     take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
-    from service.jobs.dbos_worker import WorkerEngine
+    from service.jobs.worker import WorkerEngine
 
     engine = WorkerEngine(
         open_database(
@@ -84,6 +83,7 @@ def run_worker(
         disk=open_disk(settings),
         is_able=server.is_able,
     )
+    runner = JobRunner(settings, blobs, server, setup)
     engine.start(runner.run, body_models=models.wait())
     LOG.info("Worker %s is ready.", engine.executor_id)
     if not server.is_able():

@@ -24,7 +24,7 @@ from service.compute.products import maker_of
 from service.compute.products.finished_fit import finished_fit
 from service.compute.tasks import job_tasks
 from service.jobs.inputs import BODY, PERSON, TAPES
-from service.jobs.port import Report
+from service.jobs.records import Report
 
 _SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
 """What ``body.png`` shows, and how far the onlooker has walked round, degrees."""

@@ -18,7 +18,7 @@ from api_schemas.products import AnyProductOptions
 from api_schemas.products.base import ProductResult
 from api_schemas.results import FitResult
 from service.jobs.inputs import SentPicture
-from service.jobs.port import Report
+from service.jobs.records import Report
 from service.numerics.tasks import ProblemError
 
 Result_co = TypeVar("Result_co", bound=ProductResult, covariant=True)

@@ -11,7 +11,7 @@ from api_schemas.products.base import ProductResult
 from service.compute.files import with_result_document
 from service.compute.pipeline_port import Made, PipelineInput, PipelineOutput, ProductInput
 from service.jobs.inputs import RESULT, pictures_of
-from service.jobs.port import FIT
+from service.jobs.records import FIT
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 
 PRODUCT: Final = "product"

@@ -26,7 +26,7 @@ from fitter.request import (
 from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import WEIGHT
 from service.jobs.inputs import SentPicture
-from service.jobs.port import Report
+from service.jobs.records import Report
 from service.submissions.detector import DETECTOR_MISSING
 
 SEEN = 2

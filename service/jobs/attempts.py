@@ -15,19 +15,23 @@ import sqlalchemy as sa
 
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
-from service.jobs.availability import ABSENCES, retry_while_database_is_away
-from service.jobs.notices import Notices
-from service.jobs.port import AttemptResult, Directive, Ending, JobRecord, Report
-from service.jobs.records import (
+from service.jobs.database import (
+    ABSENCES,
+    SCHEMA_FACT,
+    retry_while_database_is_away,
+    touch_fact,
+)
+from service.jobs.records import AttemptResult, Directive, Ending, JobRecord, Report
+from service.jobs.rows import (
     FILES,
+    Endings,
     append_event,
-    end_job,
+    count_durations,
     find_job,
     job_record,
     move_job,
 )
-from service.jobs.statistics import count_durations
-from service.jobs.tables import JOBS, WORKERS
+from service.jobs.tables import JOBS
 from service.process.retrying import LONGEST_PAUSE_S
 
 LOG: Final = logging.getLogger(__name__)
@@ -40,34 +44,6 @@ FINAL_STATES: Final = {
 }
 
 
-_CURRENT: Final = (
-    JOBS.c.id == sa.bindparam("job"),
-    JOBS.c.state == JobState.RUNNING.value,
-    JOBS.c.attempt == sa.bindparam("of_attempt"),
-)
-# Written out once: putting a statement together takes longer than executing it, and these are
-# executed all the time a fit runs.
-_CANCEL_REQUESTED: Final = sa.select(JOBS.c.cancel_requested).where(*_CURRENT)
-_SHARE: Final = sa.bindparam("share", type_=JOBS.c.progress.type)
-_REPORT: Final = (
-    sa.update(JOBS)
-    .where(*_CURRENT)
-    .values(
-        stage=sa.bindparam("its_stage", type_=JOBS.c.stage.type),
-        view=sa.bindparam("its_view", type_=JOBS.c.view.type),
-        progress=sa.case((JOBS.c.progress > _SHARE, JOBS.c.progress), else_=_SHARE),
-        last_event=JOBS.c.last_event + 1,
-    )
-    .returning(JOBS)
-)
-_TOUCH: Final = (
-    sa.update(WORKERS)
-    .where(WORKERS.c.executor_id == sa.bindparam("worker"))
-    .values(pid=WORKERS.c.pid)
-)
-_COUNT_CRASH: Final = sa.update(JOBS).where(*_CURRENT).values(crashes=JOBS.c.crashes + 1)
-
-
 def given_up(reason: str) -> Problem:
     """Say that a job was given up because it kills the processes that run it."""
     return problem(
@@ -77,31 +53,39 @@ def given_up(reason: str) -> Problem:
     )
 
 
-class RecordedAttempt:
-    """The attempt a worker is running; see :class:`service.jobs.port.Attempt`."""
+class Attempt:
+    """One execution of a job, as the one who runs it sees it."""
 
     def __init__(
         self, database: sa.Engine, job: JobRecord, *, leave_slot: Callable[[str], None]
     ) -> None:
         self._database = database
-        self._job = job
         self._leave_slot = leave_slot
-
-    @property
-    def job(self) -> JobRecord:
+        self.job: Final = job
         """The job as it was when the attempt began."""
-        return self._job
+        self.is_current: Final = (
+            JOBS.c.id == job.id,
+            JOBS.c.state == JobState.RUNNING.value,
+            JOBS.c.attempt == job.attempt,
+        )
 
     @retry_while_database_is_away
     def report(self, report: Report) -> Directive:
-        """Store progress and its event; the share never decreases."""
+        """Store progress and its event, and say whether to continue; the share never decreases."""
+        share = sa.case((JOBS.c.progress > report.progress, JOBS.c.progress), else_=report.progress)
+        reported = (
+            sa.update(JOBS)
+            .where(*self.is_current)
+            .values(
+                stage=report.stage,
+                view=report.view,
+                progress=share,
+                last_event=JOBS.c.last_event + 1,
+            )
+            .returning(JOBS)
+        )
         with self._database.begin() as connection:
-            values = {
-                "its_stage": report.stage,
-                "its_view": report.view,
-                "share": report.progress,
-            }
-            row = connection.execute(_REPORT, _current(self._job) | values).mappings().one_or_none()
+            row = connection.execute(reported).mappings().one_or_none()
             if row is None:
                 return Directive.SUPERSEDED
             job = job_record(row)
@@ -111,21 +95,19 @@ class RecordedAttempt:
     @retry_while_database_is_away
     def directive(self) -> Directive:
         """Ask whether the attempt is still wanted."""
+        query = sa.select(JOBS.c.cancel_requested).where(*self.is_current)
         with self._database.connect() as connection:
-            cancel_requested = connection.execute(
-                _CANCEL_REQUESTED, _current(self._job)
-            ).scalar_one_or_none()
+            cancel_requested = connection.execute(query).scalar_one_or_none()
         if cancel_requested is None:
             return Directive.SUPERSEDED
         return Directive.CANCELED if cancel_requested else Directive.CONTINUE
 
     def leave_slot(self) -> None:
-        """Let another job begin, while this one's result is stored."""
-        self._leave_slot(self._job.id)
+        """Let another job begin: all that is left of this one is to store its result."""
+        self._leave_slot(self.job.id)
 
 
-def _current(job: JobRecord) -> dict[str, object]:
-    return {"job": job.id, "of_attempt": job.attempt}
+AttemptHandler = Callable[[Attempt], AttemptResult]
 
 
 class AttemptLog:
@@ -137,18 +119,17 @@ class AttemptLog:
         *,
         executor_id: str,
         max_crashes: int,
-        retention_s: float,
+        endings: Endings,
         leave_slot: Callable[[str], None],
     ) -> None:
         self._database = database
         self._executor_id = executor_id
         self._max_crashes = max_crashes
-        self._retention_s = retention_s
-        self._notices = Notices(database)
+        self._endings = endings
         self._leave_slot = leave_slot
 
     @retry_while_database_is_away
-    def begin(self, job_id: str) -> RecordedAttempt | None:
+    def begin(self, job_id: str) -> Attempt | None:
         """Claim the next attempt; None if there is nothing (more) to do for this job."""
         with self._database.begin() as connection:
             job = move_job(
@@ -168,53 +149,41 @@ class AttemptLog:
             if job is None:
                 self._end_unbegun(connection, job_id)
                 return None
-        return RecordedAttempt(self._database, job, leave_slot=self._leave_slot)
+        return Attempt(self._database, job, leave_slot=self._leave_slot)
 
     def _end_unbegun(self, connection: sa.Connection, job_id: str) -> None:
         """End a job that is not to be begun, unless it has ended."""
-        canceled = end_job(
-            connection,
-            job_id,
-            JOBS.c.cancel_requested.is_(True),
-            state=JobState.CANCELED,
-            retention_s=self._retention_s,
-            notify=self._notices.enqueue,
-        )
+        is_canceled = JOBS.c.cancel_requested.is_(True)
+        canceled = self._endings.end(connection, job_id, is_canceled, state=JobState.CANCELED)
         if canceled is None:
-            reason = given_up(f"The process of this job died {self._max_crashes} times.")
-            end_job(
+            self._endings.end(
                 connection,
                 job_id,
                 JOBS.c.crashes >= self._max_crashes,
                 state=JobState.FAILED,
-                retention_s=self._retention_s,
-                notify=self._notices.enqueue,
-                values={"problem": reason.model_dump_json()},
+                problem=given_up(f"The process of this job died {self._max_crashes} times."),
             )
 
     @retry_while_database_is_away
-    def count_crash(self, attempt: RecordedAttempt) -> None:
+    def count_crash(self, attempt: Attempt) -> None:
         """Note that the process of this attempt died without being killed by us."""
+        counted = sa.update(JOBS).values(crashes=JOBS.c.crashes + 1)
         with self._database.begin() as connection:
-            connection.execute(_COUNT_CRASH, _current(attempt.job))
+            connection.execute(counted.where(*attempt.is_current))
 
     @retry_while_database_is_away
     def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:
         """Publish the result; None if the attempt was superseded or the job erased."""
         state = FINAL_STATES[result.ending]
+        complete = {"progress": 1.0} if state is JobState.SUCCEEDED else {}
         with self._database.begin() as connection:
-            ended = end_job(
+            ended = self._endings.end(
                 connection,
                 job_id,
                 JOBS.c.attempt == attempt,
                 state=state,
-                retention_s=self._retention_s,
-                notify=self._notices.enqueue,
-                values={
-                    "files": FILES.dump_json(result.files).decode(),
-                    "problem": result.problem.model_dump_json() if result.problem else None,
-                }
-                | ({"progress": 1.0} if state is JobState.SUCCEEDED else {}),
+                problem=result.problem,
+                values={"files": FILES.dump_json(result.files).decode(), **complete},
             )
             if ended is not None:
                 count_durations(
@@ -232,7 +201,7 @@ class AttemptLog:
         while True:
             try:
                 with self._database.begin() as connection:
-                    connection.execute(_TOUCH, {"worker": self._executor_id})
+                    touch_fact(connection, SCHEMA_FACT)
                     return
             except ABSENCES as error:
                 LOG.warning(
@@ -249,28 +218,20 @@ class AttemptLog:
     @retry_while_database_is_away
     def hand_back(self) -> None:
         """Let this worker's jobs wait again, as if they had not been begun."""
+        is_own = JOBS.c.claimed_by == self._executor_id
+        running = sa.select(JOBS.c.id).where(is_own, JOBS.c.state == JobState.RUNNING.value)
+        claimed = sa.update(JOBS).where(is_own, JOBS.c.state == JobState.QUEUED.value)
         with self._database.begin() as connection:
-            ids = connection.execute(
-                sa.select(JOBS.c.id).where(
-                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.RUNNING.value
-                )
-            ).scalars()
-            for job_id in list(ids):
+            for job_id in list(connection.execute(running).scalars()):
                 move_job(
                     connection,
                     job_id,
-                    JOBS.c.claimed_by == self._executor_id,
+                    is_own,
                     state=JobState.QUEUED,
                     values={"claimed_by": None, "stage": None, "view": None, "progress": 0.0},
                 )
-            # Those that were claimed and have not begun.
-            connection.execute(
-                sa.update(JOBS)
-                .where(
-                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.QUEUED.value
-                )
-                .values(claimed_by=None)
-            )
+            # Those that have not begun.
+            connection.execute(claimed.values(claimed_by=None))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

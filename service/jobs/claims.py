@@ -10,13 +10,12 @@ from typing import Final
 import sqlalchemy as sa
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import Problem, problem
+from api_schemas.problems import problem
 from service.jobs.attempts import given_up
-from service.jobs.notices import Notices
-from service.jobs.records import end_job
-from service.jobs.states import ACTIVE
+from service.jobs.database import read_then_write
+from service.jobs.records import ACTIVE
+from service.jobs.rows import Endings
 from service.jobs.tables import JOBS
-from service.jobs.transactions import read_then_write
 
 MAX_WORKER_DEATHS: Final = 10
 """How many workers may die while running one job. Larger than the limit on crashes of the fit's own
@@ -26,36 +25,27 @@ tests."""
 _ACTIVE: Final = JOBS.c.state.in_([state.value for state in ACTIVE])
 _RUNNING: Final = JOBS.c.state == JobState.RUNNING.value
 _DEATHS: Final = sa.func.coalesce(JOBS.c.worker_deaths, 0)
-
-# Written out once: putting a statement together takes longer than executing it, and these are
-# executed all the time a worker waits.
 _WAITING: Final = sa.select(JOBS.c.id).where(_ACTIVE, JOBS.c.claimed_by.is_(None))
-_ANY_WAITING: Final = _WAITING.limit(1)
-_NEXT: Final = (
-    _WAITING.order_by(JOBS.c.turn, JOBS.c.created_at)
-    .limit(sa.bindparam("most"))
-    .with_for_update(skip_locked=True)
-)
 
 
 class Claims:
     """The claims of one worker."""
 
-    def __init__(self, database: sa.Engine, *, executor_id: str, retention_s: float) -> None:
+    def __init__(self, database: sa.Engine, *, executor_id: str, endings: Endings) -> None:
         self._database = database
         self._executor_id = executor_id
-        self._retention_s = retention_s
-        self._notices = Notices(database)
+        self._endings = endings
         self._own = sa.and_(_ACTIVE, JOBS.c.claimed_by == executor_id)
 
     def take(self, most: int) -> list[str]:
         """Claim up to ``most`` waiting jobs, those first whose turn is first."""
         with self._database.connect() as connection:
             # Usually there is none, which spares SQLite a write transaction.
-            if connection.execute(_ANY_WAITING).first() is None:
+            if connection.execute(_WAITING.limit(1)).first() is None:
                 return []
+        first = _WAITING.order_by(JOBS.c.turn, JOBS.c.created_at).limit(most)
         with read_then_write(self._database) as connection:
-            jobs = list(connection.execute(_NEXT, {"most": most}).scalars())
+            jobs = list(connection.execute(first.with_for_update(skip_locked=True)).scalars())
             connection.execute(
                 sa.update(JOBS).where(JOBS.c.id.in_(jobs)).values(claimed_by=self._executor_id)
             )
@@ -93,7 +83,7 @@ class Claims:
             remedy="Post the picture again.",
         )
         with self._database.begin() as connection:
-            self._fail(connection, job_id, reason)
+            self._endings.end(connection, job_id, state=JobState.FAILED, problem=reason)
 
     def take_from(self, dead: Collection[str]) -> list[str]:
         """Let the jobs of dead workers wait again, and end those over which too many have died.
@@ -110,15 +100,5 @@ class Claims:
             for row in rows:
                 if row.worker_deaths > MAX_WORKER_DEATHS:
                     reason = given_up("Every worker that took this job died over it.")
-                    self._fail(connection, row.id, reason)
+                    self._endings.end(connection, row.id, state=JobState.FAILED, problem=reason)
         return [row.id for row in rows]
-
-    def _fail(self, connection: sa.Connection, job_id: str, reason: Problem) -> None:
-        end_job(
-            connection,
-            job_id,
-            state=JobState.FAILED,
-            retention_s=self._retention_s,
-            notify=self._notices.enqueue,
-            values={"problem": reason.model_dump_json()},
-        )

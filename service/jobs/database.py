@@ -1,33 +1,42 @@
-"""Open and prepare the database: SQLite in WAL mode, or Postgres."""
+"""The database, SQLite in WAL mode or Postgres: opened, prepared, and what its errors mean."""
 
 import contextlib
+import functools
+import re
 import sqlite3
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, ParamSpec, TypeVar
 
+import psycopg
 import sqlalchemy as sa
 from sqlalchemy import event
-from sqlalchemy.exc import ArgumentError, DBAPIError
+from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.exc import ArgumentError, DBAPIError, OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.jobs.availability import refusal, retry_while_database_is_away
-from service.jobs.port import DatabaseUnusableError
-from service.jobs.tables import JOBS, METADATA
-from service.jobs.transactions import read_fact, read_then_write, write_fact
+from service.jobs.records import DatabaseUnusableError, EngineFullError, EngineUnavailableError
+from service.jobs.tables import FACTS, JOBS, METADATA
 from service.process.data_folder import (
     database_files,
     make_private_file,
     make_private_folder,
     tighten,
 )
+from service.process.retrying import retry_with_pauses
 from service.setting_types import without_secrets
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created and facts are settled."""
 
-SCHEMA_VERSION: Final = "8"
+SCHEMA_VERSION: Final = "9"
 SCHEMA_FACT: Final = "schema_version"
+BODY_MODELS_FACT: Final = "body_models"
+"""What the worker that last started can fit, as JSON."""
 
 POSTGRES_CONNECTION: Final = {
     "connect_timeout": 5,
@@ -37,6 +46,13 @@ POSTGRES_CONNECTION: Final = {
     "keepalives_count": 3,
     "tcp_user_timeout": 15_000,
 }
+
+
+ABSENCES: Final = (OperationalError, PoolTimeoutError)
+"""While a host cannot be reached, every connection of a pool may be held by who waits for it."""
+
+retry_while_database_is_away = retry_with_pauses(ABSENCES, "database")
+"""Retries an operation that fails because the database is unavailable, for up to two minutes."""
 
 
 def open_database(url: str, *, connections: int = 20) -> sa.Engine:
@@ -212,3 +228,113 @@ def prepare_file(engine: sa.Engine) -> None:
     finally:
         connection.invalidate()
         connection.close()
+
+
+@contextlib.contextmanager
+def read_then_write(database: sa.Engine) -> Iterator[sa.Connection]:
+    """Begin a transaction in which rows read ``FOR UPDATE`` cannot change until it ends.
+
+    Postgres locks these rows. SQLite has no such clause, and a transaction there begins only with
+    the first write: what was read before may be gone by then. So its single writer lock is taken
+    before anything is read.
+    """
+    with database.begin() as connection:
+        if connection.dialect.name == "sqlite":
+            connection.execute(sa.text("BEGIN IMMEDIATE"))
+        yield connection
+
+
+def insert_or_update(
+    connection: sa.Connection, table: sa.Table
+) -> sqlite.Insert | postgresql.Insert:
+    """Build an insert that can specify what happens to an existing row with the same key."""
+    if connection.dialect.name == "postgresql":
+        return postgresql.insert(table)
+    return sqlite.insert(table)
+
+
+def read_fact(connection: sa.Connection, name: str) -> str | None:
+    """Return the value stored under a name, None if there is none."""
+    query = sa.select(FACTS.c.value).where(FACTS.c.name == name)
+    return connection.execute(query).scalar_one_or_none()
+
+
+def write_fact(connection: sa.Connection, name: str, value: str) -> None:
+    """Store a value, replacing any earlier one; of several concurrent writers the last one wins."""
+    insert = insert_or_update(connection, FACTS).values(name=name, value=value)
+    connection.execute(
+        insert.on_conflict_do_update(
+            index_elements=[FACTS.c.name], set_={"value": insert.excluded.value}
+        )
+    )
+
+
+def touch_fact(connection: sa.Connection, name: str) -> None:
+    """Write a fact again unchanged: raises if the database takes no writes."""
+    connection.execute(sa.update(FACTS).where(FACTS.c.name == name).values(name=FACTS.c.name))
+
+
+REFUSALS: Final = re.compile(
+    r'database ".*" does not exist|role ".*" does not exist|no such (?:database|user)'
+    r"|password authentication failed|no password supplied|SASL authentication failed"
+    r"|is not permitted to log in|no pg_hba\.conf entry|permission denied for database"
+    r"|server does not support SSL|certificate verify failed"
+)
+"""Refused connections that waiting will not cure. Their SQLSTATE is not available: libpq passes on
+only the text. In languages other than English they are not recognised, and are waited for."""
+
+FINAL_STATES: Final = frozenset({"42501", "25006"})
+"""SQLSTATE: insufficient privilege, or a read-only server."""
+
+FINAL_SQLITE: Final = frozenset(
+    {sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM}
+)
+PRIMARY_CODE: Final = 0xFF
+"""The bits of an extended result code that hold the primary one."""
+
+DISK_FULL: Final = "53100"
+FULL_SQLITE: Final = frozenset({sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_SHMSIZE})
+"""What SQLite reports, besides SQLITE_FULL, if a file cannot grow: a quota, a file size limit."""
+
+
+def refusal(error: DBAPIError) -> str | None:
+    """Why the database cannot be used as it is, in the driver's words; None if waiting may help."""
+    cause = error.orig
+    if isinstance(cause, sqlite3.Error):
+        return str(cause) if _sqlite_code(cause) & PRIMARY_CODE in FINAL_SQLITE else None
+    if not isinstance(cause, psycopg.Error):
+        return None
+    words = " ".join(str(cause).split())
+    if cause.sqlstate is not None:
+        return words if cause.sqlstate in FINAL_STATES else None
+    is_unreadable = isinstance(cause, psycopg.ProgrammingError)
+    if is_unreadable or REFUSALS.search(words):
+        return words.rpartition("FATAL:")[2].strip()
+    return None
+
+
+def is_full(error: BaseException) -> bool:
+    """Whether the error means that the database's disk is full."""
+    cause = getattr(error, "orig", error)
+    if isinstance(cause, sqlite3.Error):
+        code = _sqlite_code(cause)
+        return code & PRIMARY_CODE == sqlite3.SQLITE_FULL or code in FULL_SQLITE
+    return isinstance(cause, psycopg.Error) and cause.sqlstate == DISK_FULL
+
+
+def _sqlite_code(error: sqlite3.Error) -> int:
+    return getattr(error, "sqlite_errorcode", 0)
+
+
+def available(operation: Callable[P, T]) -> Callable[P, T]:
+    """Turn errors of the database's driver into the port's own."""
+
+    @functools.wraps(operation)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return operation(*args, **kwargs)
+        except ABSENCES as error:
+            kind = EngineFullError if is_full(error) else EngineUnavailableError
+            raise kind from error
+
+    return wrapper

@@ -13,13 +13,12 @@ from typing import Final
 
 import sqlalchemy as sa
 
-from service.jobs.availability import ABSENCES
 from service.jobs.claims import Claims
+from service.jobs.database import ABSENCES
 from service.jobs.executions import Executions
-from service.jobs.liveness import WORKERS_SEEN, WorkerWatch, this_process
-from service.jobs.tables import UNABLE_WORKERS, WORKERS
-from service.jobs.transactions import insert_or_update
-from service.jobs.worker_slots import WorkerSlots
+from service.jobs.liveness import WorkerWatch, this_process
+from service.jobs.slots import WorkerSlots
+from service.jobs.tables import WORKERS
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -71,9 +70,7 @@ class Heartbeat:
         """Stop beating and sign off, so that nobody waits for this worker."""
         self._stopped.set()
         self._thread.join()
-        with self._database.begin() as connection:
-            _forget(connection, [self._executor_id])
-        self._executions.drop_queue(self._executor_id)
+        self._forget([self._executor_id])
 
     def _run(self) -> None:
         while True:
@@ -93,11 +90,12 @@ class Heartbeat:
                 return
 
     def _beat(self) -> None:
+        able = self._is_able()
         with self._database.begin() as connection:
             beaten = connection.execute(
                 sa.update(WORKERS)
                 .where(WORKERS.c.executor_id == self._executor_id)
-                .values(beat=WORKERS.c.beat + 1)
+                .values(beat=WORKERS.c.beat + 1, able=able)
             )
             if beaten.rowcount == 0:
                 # The first beat, or the others took this worker for dead and removed it.
@@ -109,17 +107,8 @@ class Heartbeat:
                         pid=self._process.pid,
                         pid_started=self._process.pid_started,
                         beat=0,
-                        started_at=time.time(),
+                        able=able,
                     )
-                )
-            if self._is_able():
-                own = UNABLE_WORKERS.c.executor_id == self._executor_id
-                connection.execute(sa.delete(UNABLE_WORKERS).where(own))
-            else:
-                connection.execute(
-                    insert_or_update(connection, UNABLE_WORKERS)
-                    .values(executor_id=self._executor_id)
-                    .on_conflict_do_nothing()
                 )
         if not self._has_queue:
             self._executions.declare_queue(self._executor_id)
@@ -129,7 +118,7 @@ class Heartbeat:
         # In this order: a worker makes itself known before it claims anything.
         holders, executions = self._claims.holders(), self._executions.holders()
         with self._database.connect() as connection:
-            workers = connection.execute(WORKERS_SEEN).all()
+            workers = connection.execute(sa.select(WORKERS)).all()
         alive = self._watch.alive(workers) | {self._executor_id}
         dead = sorted(holders - alive)
         if dead:
@@ -143,10 +132,7 @@ class Heartbeat:
                 self._executions.remove(ended)
         gone = [row.executor_id for row in workers if row.executor_id not in alive]
         if gone:
-            with self._database.begin() as connection:
-                _forget(connection, gone)
-            for each in gone:
-                self._executions.drop_queue(each)
+            self._forget(gone)
 
     def _pick_up(self) -> None:
         """Put back what this worker has claimed but does not run.
@@ -166,8 +152,9 @@ class Heartbeat:
                     self._slots.free(job_id)
                 del self._dropped_since[job_id]
 
-
-def _forget(connection: sa.Connection, executor_ids: Collection[str]) -> None:
-    """Remove workers that have stopped or died."""
-    for table in (WORKERS, UNABLE_WORKERS):
-        connection.execute(sa.delete(table).where(table.c.executor_id.in_(executor_ids)))
+    def _forget(self, executor_ids: Collection[str]) -> None:
+        """Remove workers that have stopped or died."""
+        with self._database.begin() as connection:
+            connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(executor_ids)))
+        for each in executor_ids:
+            self._executions.drop_queue(each)

@@ -2,7 +2,7 @@
 
 The blob of a picture lies in a scope of its own. As with jobs, the scope is listed for erasure
 until the record is there, and again as soon as the record is gone (see
-:mod:`service.jobs.expiry`). A fit copies the picture into the job's scope, so neither depends on
+:mod:`service.jobs.sweep`). A fit copies the picture into the job's scope, so neither depends on
 the other.
 """
 
@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
 
-from service.jobs.availability import available
-from service.jobs.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
+from service.jobs.database import available
+from service.jobs.sweep import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.jobs.tables import IMAGES
 
 
@@ -57,7 +57,7 @@ class ImageQuotaError(Exception):
 class TenantImages:
     """The uploaded pictures of one tenant; those of others can be neither seen nor touched.
 
-    Every method may raise :class:`service.jobs.port.EngineUnavailableError`.
+    Every method may raise :class:`service.jobs.records.EngineUnavailableError`.
     """
 
     def __init__(

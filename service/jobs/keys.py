@@ -16,10 +16,9 @@ from typing import Final
 import sqlalchemy as sa
 from sqlalchemy.exc import InternalError
 
-from service.jobs.availability import available
-from service.jobs.port import EngineUnavailableError
-from service.jobs.tables import API_KEYS, KEY_USES
-from service.jobs.transactions import insert_or_update
+from service.jobs.database import available
+from service.jobs.records import EngineUnavailableError
+from service.jobs.tables import API_KEYS
 
 MARK: Final = "mq"
 TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
@@ -34,11 +33,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiKey:
-    """A stored key; times are seconds since the epoch.
-
-    ``used_at`` is when it was last used, to the minute; None if no
-    use is known.
-    """
+    """A stored key; times are seconds since the epoch, ``used_at`` to the minute."""
 
     id: str
     tenant: str
@@ -97,11 +92,7 @@ class KeyRing:
     @available
     def all_keys(self) -> Sequence[ApiKey]:
         """Return all keys, oldest first."""
-        query = (
-            sa.select(API_KEYS, KEY_USES.c.used_at)
-            .outerjoin(KEY_USES, KEY_USES.c.key_id == API_KEYS.c.id)
-            .order_by(API_KEYS.c.created_at)
-        )
+        query = sa.select(API_KEYS).order_by(API_KEYS.c.created_at)
         with self._database.connect() as connection:
             return [
                 ApiKey(
@@ -122,17 +113,12 @@ class KeyRing:
 
         Several processes note the uses of one key.
         """
+        used_at = API_KEYS.c.used_at
+        is_due = sa.or_(used_at.is_(None), used_at < unless_since)
+        noted = sa.update(API_KEYS).where(API_KEYS.c.id == identity, is_due).values(used_at=at)
         try:
             with self._database.begin() as connection:
-                connection.execute(
-                    insert_or_update(connection, KEY_USES)
-                    .values(key_id=identity, used_at=at)
-                    .on_conflict_do_update(
-                        index_elements=[KEY_USES.c.key_id],
-                        set_={"used_at": at},
-                        where=KEY_USES.c.used_at < unless_since,
-                    )
-                )
+                connection.execute(noted)
         except InternalError as error:
             # How Postgres refuses writes when it is read-only, as a standby is.
             raise EngineUnavailableError from error

@@ -17,13 +17,7 @@ from typing import Any, Final
 
 import sqlalchemy as sa
 
-from service.jobs.port import WorkerStatus
-from service.jobs.tables import UNABLE_WORKERS, WORKERS
-
-WORKERS_SEEN: Final = sa.select(
-    WORKERS, UNABLE_WORKERS.c.executor_id.is_(None).label("able")
-).outerjoin(UNABLE_WORKERS, WORKERS.c.executor_id == UNABLE_WORKERS.c.executor_id)
-"""What a :class:`WorkerWatch` looks at."""
+from service.jobs.records import WorkerStatus
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,7 +90,7 @@ class WorkerWatch:
         self._lock = threading.Lock()
 
     def look(self, workers: Sequence[sa.Row[Any]]) -> list[WorkerStatus]:
-        """Look at all rows of ``WORKERS_SEEN``, and return what is known about each."""
+        """Look at all rows of ``WORKERS``, and return what is known about each."""
         with self._lock:
             now = self._monotonic()
             passed = 0.0 if self._last_look is None else now - self._last_look

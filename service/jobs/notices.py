@@ -1,23 +1,39 @@
-"""Notices of jobs' ends: each a workflow of DBOS, whose one step sends it and is retried by DBOS.
+"""Notices of fits' ends, signed and sent to the receivers that callers named (Standard Webhooks).
 
-A notice is enqueued in the transaction that ends its job, under an id made of the job's, so none is
-lost and none is there twice. API processes send them. One that dies leaves its notices to the next
-API process of its machine; those of a machine that is gone are enqueued again by the sweep.
+Each is a workflow of DBOS, whose one step sends it and is retried by DBOS. It is enqueued in the
+transaction that ends its fit, under an id made of the fit's, so none is lost and none is there
+twice. API processes send them. One that dies leaves its notices to the next API process of its
+machine; those of a machine that is gone are enqueued again by the sweep.
 """
 
 import asyncio
+import base64
+import hashlib
+import hmac
 import logging
 import os
-from collections.abc import Awaitable, Callable
+import ssl
+import time
+from collections.abc import Awaitable, Callable, Collection, Mapping
 from datetime import UTC, datetime, timedelta
 from typing import Final
 
+import httpx
 import sqlalchemy as sa
 from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, error
 
+from api_schemas.jobs import Fit, WebhookEvent, WebhookEventType, WebhookTarget, secret_key
+from service.jobs.addresses import (
+    AddressRefusedError,
+    IPAddress,
+    is_port_refused,
+    port_of,
+    resolve,
+)
+from service.jobs.blobs import BlobMissingError, BlobStore
 from service.jobs.executions import APPLICATION, EXECUTION_VERSION
-from service.jobs.port import JobRecord
-from service.jobs.records import find_job
+from service.jobs.records import JobRecord
+from service.jobs.rows import find_job
 from service.process.logs import fields
 
 LOG: Final = logging.getLogger(__name__)
@@ -35,6 +51,10 @@ after the first."""
 LEFT_AFTER: Final = timedelta(hours=3)
 """By then a notice has been accepted or given up, unless whoever sent it is gone."""
 
+ATTEMPT_WITHIN_S: Final = 15.0
+CONNECT_WITHIN_S: Final = 5.0
+USER_AGENT: Final = "Maquette (Standard Webhooks)"
+
 
 def notice_of(job_id: str) -> str:
     """The id of the workflow that tells of a job's end."""
@@ -42,7 +62,7 @@ def notice_of(job_id: str) -> str:
 
 
 class Notices:
-    """Enqueues notices, and forgets them with their jobs."""
+    """Enqueues notices."""
 
     def __init__(self, database: sa.Engine) -> None:
         self._client = DBOSClient(
@@ -136,3 +156,138 @@ class NoticeRunner:
     def _find(self, job_id: str) -> JobRecord | None:
         with self._database.connect() as connection:
             return find_job(connection, job_id)
+
+
+class NotAcceptedError(Exception):
+    """The receiver does not have the notice; the message names neither it nor its address."""
+
+
+class Sender:
+    """Posts notices to public addresses, and to ``allowed_hosts`` wherever they are.
+
+    Nothing of this process is sent along: no proxy, no cookies, no credentials. Redirects are not
+    followed, and only the head of the answer is read. ``secret`` signs if the caller sent none;
+    ``represent`` is how callers see a fit.
+    """
+
+    def __init__(
+        self,
+        blobs: BlobStore,
+        represent: Callable[[JobRecord], Fit],
+        *,
+        secret: str | None,
+        allowed_hosts: Collection[str],
+        tls: ssl.SSLContext | None = None,
+    ) -> None:
+        self._blobs = blobs
+        self._represent = represent
+        self._secret = secret
+        self._allowed_hosts = allowed_hosts
+        self._tls = tls or httpx.create_ssl_context()
+
+    async def send(self, job: JobRecord) -> None:
+        """Tell of a job's end; a receiver that answers 410 is not asked again.
+
+        Raises
+        ------
+        NotAcceptedError
+            If the receiver does not accept it.
+        BlobsUnavailableError
+            If the storage does not say whom to notify.
+        """
+        target = await asyncio.to_thread(self._target, job)
+        secret = None if target is None else target.secret or self._secret
+        if target is None or secret is None:
+            return
+        # The same at every attempt.
+        event = WebhookEvent(
+            type=WebhookEventType(f"fit.{job.state}"),
+            timestamp=datetime.fromtimestamp(job.finished_at or 0.0, UTC),
+            data=self._represent(job),
+        )
+        body = event.model_dump_json().encode()
+        signed = signed_headers(
+            notice_id=job.id, timestamp=int(time.time()), body=body, secret=secret
+        )
+        headers = {"content-type": "application/json", "user-agent": USER_AGENT, **signed}
+        status = await self.post(target.url, headers=headers, body=body)
+        accepted = httpx.codes.is_success(status)
+        if not accepted and status != httpx.codes.GONE:
+            message = f"The receiver answered {status}."
+            raise NotAcceptedError(message)
+        # Its address may hold a secret of the receiver's.
+        LOG.info("A notice was sent.", extra=fields(job=job.id, status=status))
+
+    def _target(self, job: JobRecord) -> WebhookTarget | None:
+        """Whom to notify of a job's end; None if nobody, or if the job was erased meanwhile."""
+        if job.webhook is None:
+            return None
+        try:
+            return WebhookTarget.model_validate_json(self._blobs.get(job.id, job.webhook.digest))
+        except BlobMissingError:
+            return None
+
+    async def post(self, url: str, *, headers: Mapping[str, str], body: bytes) -> int:
+        """Post, and return the receiver's status.
+
+        Raises
+        ------
+        NotAcceptedError
+            If there is no answer.
+        """
+        try:
+            async with asyncio.timeout(ATTEMPT_WITHIN_S):
+                return await self._post(httpx.URL(url), headers, body)
+        except TimeoutError as error:
+            message = f"No answer within {ATTEMPT_WITHIN_S:g} s."
+            raise NotAcceptedError(message) from error
+        except AddressRefusedError as error:
+            raise NotAcceptedError(str(error)) from error
+        except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
+            # By kind alone: the message may quote the address, or what is there.
+            message = f"No connection, or none that lasted ({type(error).__name__})."
+            raise NotAcceptedError(message) from None
+
+    async def _post(self, url: httpx.URL, headers: Mapping[str, str], body: bytes) -> int:
+        if is_port_refused(url, self._allowed_hosts):
+            message = "Notices are not sent to the receiver's port."
+            raise AddressRefusedError(message)
+        *others, last = await resolve(url.raw_host.decode(), port_of(url), self._allowed_hosts)
+        for address in others:
+            try:
+                return await self._post_to(address, url, headers, body)
+            except (httpx.ConnectError, httpx.ConnectTimeout):
+                continue
+        return await self._post_to(last, url, headers, body)
+
+    async def _post_to(
+        self, address: IPAddress, url: httpx.URL, headers: Mapping[str, str], body: bytes
+    ) -> int:
+        async with (
+            httpx.AsyncClient(
+                verify=self._tls,
+                trust_env=False,
+                # Who calls limits all of it.
+                timeout=httpx.Timeout(None, connect=CONNECT_WITHIN_S),
+            ) as client,
+            client.stream(
+                "POST",
+                url.copy_with(host=str(address)),
+                content=body,
+                headers={"host": url.netloc.decode(), **headers},
+                # The certificate must be for the name, not for the address.
+                extensions={"sni_hostname": url.raw_host.decode()},
+            ) as response,
+        ):
+            return response.status_code
+
+
+def signed_headers(*, notice_id: str, timestamp: int, body: bytes, secret: str) -> dict[str, str]:
+    """Return the headers that identify, date and sign a notice; ``timestamp`` in epoch seconds."""
+    content = f"{notice_id}.{timestamp}.".encode() + body
+    signature = base64.b64encode(hmac.digest(secret_key(secret), content, hashlib.sha256)).decode()
+    return {
+        "webhook-id": notice_id,
+        "webhook-timestamp": str(timestamp),
+        "webhook-signature": f"v1,{signature}",
+    }

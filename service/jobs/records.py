@@ -1,172 +1,259 @@
-"""Conversion between rows and records, and the statements both sides of the engine share."""
+"""Jobs in plain types, as the API and the worker see them, and the states they may be in."""
 
-import time
-from collections.abc import Callable, Mapping
-from datetime import UTC, datetime
-from typing import Any, Final
-
-import sqlalchemy as sa
-from pydantic import TypeAdapter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Final
 
 from api_schemas.jobs import EventData, EventKind, JobState
 from api_schemas.problems import Problem
 from api_schemas.results import ResultFile
-from service.jobs.port import JobRecord, StoredBlob
-from service.jobs.states import may_become
-from service.jobs.statistics import count_ending
-from service.jobs.tables import EVENTS, JOBS
 
-JSON: Final = "application/json"
-FILES: Final = TypeAdapter(tuple[ResultFile, ...])
-INPUTS: Final = TypeAdapter(dict[str, StoredBlob])
+FIT: Final = "fit"
+"""The kind of jobs that are no products."""
 
 
-# Written out once: putting a statement together takes longer than executing it.
-_FIND: Final = sa.select(JOBS).where(JOBS.c.id == sa.bindparam("job"))
-_APPEND: Final = sa.insert(EVENTS)
+ACTIVE: Final = frozenset({JobState.QUEUED, JobState.RUNNING})
+TERMINAL: Final = frozenset(JobState) - ACTIVE
+
+TRANSITIONS: Final[Mapping[JobState, frozenset[JobState]]] = {
+    JobState.QUEUED: frozenset({JobState.RUNNING, JobState.FAILED, JobState.CANCELED}),
+    JobState.RUNNING: ACTIVE | TERMINAL,
+} | {state: frozenset[JobState]() for state in TERMINAL}
+"""Legal changes of a job's state::
+
+    queued <─> running ──> succeeded | failed | canceled | timed_out
+       └─────────────────> failed | canceled
+
+A running job goes back to the queue when its worker is stopped. When the worker dies instead, the
+job is run again with the next attempt: running ──> running.
+"""
 
 
-def job_record(values: sa.RowMapping) -> JobRecord:
-    """Read a row of the jobs table."""
-    return JobRecord(
-        id=values["id"],
-        tenant=values["tenant"],
-        kind=values["kind"],
-        parent=values["parent_id"],
-        product=values["product"],
-        state=JobState(values["state"]),
-        stage=values["stage"],
-        view=values["view"],
-        progress=values["progress"],
-        attempt=values["attempt"],
-        cancel_requested=values["cancel_requested"],
-        created_at=values["created_at"],
-        started_at=values["started_at"],
-        finished_at=values["finished_at"],
-        expires_at=values["expires_at"],
-        problem=None
-        if values["problem"] is None
-        else Problem.model_validate_json(values["problem"]),
-        options=StoredBlob(digest=values["options_digest"], media_type=JSON),
-        inputs=INPUTS.validate_json(values["inputs"]),
-        pictures=values["pictures"],
-        label=values["label"],
-        result_files=FILES.validate_json(values["files"]),
-        fingerprint=values["fingerprint"],
-        request_id=values["request_id"],
-        last_event=values["last_event"],
-        webhook=None
-        if values["webhook_target"] is None
-        else StoredBlob(digest=values["webhook_target"], media_type=JSON),
-    )
+def may_become(state: JobState) -> frozenset[JobState]:
+    """The states from which a job may enter ``state``."""
+    return frozenset(source for source, targets in TRANSITIONS.items() if state in targets)
 
 
-def find_job(connection: sa.Connection, job_id: str) -> JobRecord | None:
-    """Return the job, or None if there is none."""
-    row = connection.execute(_FIND, {"job": job_id}).mappings().one_or_none()
-    return None if row is None else job_record(row)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredBlob:
+    """A blob in the job's scope."""
+
+    digest: str
+    media_type: str
 
 
-def append_event(
-    connection: sa.Connection,
-    job: JobRecord,
-    kind: EventKind,
-    energies: Mapping[str, float] | None = None,
-) -> None:
-    """Append an event with the fit's current state, in the transaction that changed it.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Idempotency:
+    """A caller's key, hashed, and a fingerprint of the request it came with."""
 
-    Products have none: what is asked of them is where they stand.
+    key: str
+    fingerprint: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewJob:
+    """A fit or a product to accept; its blobs are stored, ``options`` being the request as JSON.
+
+    ``inputs`` is what else it needs, by name, ``pictures`` of them pictures of a person that came
+    with the request: so many jobs it counts for while it waits. ``request_id`` identifies the HTTP
+    request in logs; ``webhook`` is a blob too, a :class:`api_schemas.jobs.WebhookTarget` as
+    JSON: whom to notify of the job's end. ``label`` is what the caller calls the person.
     """
-    if job.parent is not None:
-        return
-    data = EventData(
-        state=job.state,
-        stage=job.stage,
-        view=job.view,
-        progress=job.progress,
-        energies=dict(energies or {}),
-        at=datetime.now(UTC),
-    )
-    connection.execute(
-        _APPEND,
-        {
-            "job_id": job.id,
-            "number": job.last_event,
-            "kind": kind.value,
-            "data": data.model_dump_json(),
-        },
-    )
+
+    id: str
+    kind: str
+    options: StoredBlob
+    inputs: Mapping[str, StoredBlob]
+    pictures: int = 1
+    label: str | None = None
+    idempotency: Idempotency | None = None
+    request_id: str | None = None
+    webhook: StoredBlob | None = None
 
 
-def move_job(
-    connection: sa.Connection,
-    job_id: str,
-    *conditions: sa.ColumnElement[bool],
-    state: JobState,
-    values: Mapping[str, object] | None = None,
-) -> JobRecord | None:
-    """Move a job to an active ``state`` if that is legal and the conditions hold.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobRecord:
+    """A stored job; times are seconds since the epoch.
 
-    The check and the change are one statement, so that only one of two racing callers succeeds.
-    Returns the changed job, or None if nothing was changed.
+    ``parent`` is the fit that a product is made of, None for a fit, and ``product`` says which of
+    that fit's products it is. ``view`` is the picture that its stage
+    is about, where there are several. ``result_files`` are those of its result.
     """
-    changes: dict[str, Any] = {}
-    if state is JobState.RUNNING:
-        changes["started_at"] = sa.func.coalesce(JOBS.c.started_at, time.time())
-    job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
-    if job is not None:
-        append_event(connection, job, EventKind.STATE)
-    return job
+
+    id: str
+    tenant: str
+    kind: str
+    parent: str | None
+    product: str | None
+    state: JobState
+    stage: str | None
+    view: int | None
+    progress: float
+    attempt: int
+    cancel_requested: bool
+    created_at: float
+    started_at: float | None
+    finished_at: float | None
+    expires_at: float | None
+    problem: Problem | None
+    options: StoredBlob
+    inputs: Mapping[str, StoredBlob]
+    pictures: int
+    label: str | None
+    result_files: tuple[ResultFile, ...]
+    fingerprint: str | None
+    last_event: int
+    request_id: str | None
+    webhook: StoredBlob | None
+
+    @property
+    def scope(self) -> str:
+        """Where its blobs lie: those of a product beside its fit's."""
+        return self.parent or self.id
+
+    @property
+    def made(self) -> Mapping[str, StoredBlob]:
+        """All that came of it, by name."""
+        return {
+            each.name: StoredBlob(digest=each.sha256, media_type=each.media_type)
+            for each in self.result_files
+        }
+
+    @property
+    def files(self) -> Mapping[str, StoredBlob]:
+        """All that was sent, and all that came of it, by name."""
+        return {**self.inputs, **self.made}
 
 
-def end_job(
-    connection: sa.Connection,
-    job_id: str,
-    *conditions: sa.ColumnElement[bool],
-    state: JobState,
-    retention_s: float,
-    notify: Callable[[sa.Connection, JobRecord], None],
-    values: Mapping[str, object] | None = None,
-) -> JobRecord | None:
-    """End a job like :func:`move_job`; it expires ``retention_s`` from now.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobEvent:
+    """One entry of a job's event stream; ``number`` counts from 1 without gaps."""
 
-    If its creation is later than now, it expires ``retention_s`` from then: a clock that has been
-    set back must not make the job expire the moment it is corrected. A product goes with its fit.
-    ``notify`` has its end told, in the same transaction, if somebody asked for that.
+    number: int
+    kind: EventKind
+    data: EventData
+
+
+class EngineUnavailableError(Exception):
+    """The engine's database is unavailable or full; nothing was changed."""
+
+
+class EngineFullError(EngineUnavailableError):
+    """The disk of the engine's database is full; nothing was changed."""
+
+
+class DatabaseUnusableError(Exception):
+    """The database cannot be used as it is; the message, one line, says what to do."""
+
+
+class JobExpiredError(Exception):
+    """The job has been erased, or is about to be, because it has expired."""
+
+    def __init__(self, expired_at: float) -> None:
+        super().__init__(expired_at)
+        self.expired_at = expired_at
+
+
+class SubmitOutcome(StrEnum):
+    """How a submission ended.
+
+    ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
+    considered abandoned and erased before it was submitted. ``FIT_GONE``: the fit of a product was
+    erased meanwhile.
     """
-    now = time.time()
-    latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)
-    changes = {
-        "finished_at": now,
-        "expires_at": sa.case((JOBS.c.parent_id.is_(None), latest + retention_s)),
-    }
-    job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
-    if job is not None:
-        append_event(connection, job, EventKind.END)
-        count_ending(connection, job)
-        notify(connection, job)
-    return job
+
+    ACCEPTED = "accepted"
+    REPEATED = "repeated"
+    KEY_REUSED = "key_reused"
+    QUEUE_FULL = "queue_full"
+    TENANT_FULL = "tenant_full"
+    LOST = "lost"
+    FIT_GONE = "fit_gone"
 
 
-def _change(
-    connection: sa.Connection,
-    job_id: str,
-    *conditions: sa.ColumnElement[bool],
-    state: JobState,
-    values: Mapping[str, object],
-) -> JobRecord | None:
-    row = (
-        connection.execute(
-            sa.update(JOBS)
-            .where(
-                JOBS.c.id == job_id,
-                JOBS.c.state.in_([source.value for source in may_become(state)]),
-                *conditions,
-            )
-            .values(state=state.value, last_event=JOBS.c.last_event + 1, **values)
-            .returning(JOBS)
-        )
-        .mappings()
-        .one_or_none()
-    )
-    return None if row is None else job_record(row)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Submission:
+    """The outcome, and the job: the new one, or the earlier one with the same idempotency key."""
+
+    outcome: SubmitOutcome
+    job: JobRecord | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerStatus:
+    """A worker as seen from here: how long ago its last heartbeat was seen, by our own clock.
+
+    ``alive`` is None as long as the worker has been seen only once and nothing can be said.
+    ``able`` is what it says of itself with its heartbeat: that it can start processes for jobs.
+    """
+
+    executor_id: str
+    alive: bool | None
+    able: bool
+    heartbeat_age_s: float
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether the worker is known to be alive, and able to work."""
+        return self.alive is True and self.able
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DurationHistogram:
+    """How long a phase of jobs took: numbers of jobs by upper bound in seconds, and the sum."""
+
+    phase: str
+    counts: tuple[tuple[float, int], ...]
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EngineStatistics:
+    """The current queue, all that ever ended, and notices and crashes of the jobs that are kept."""
+
+    queued: int
+    running: int
+    oldest_queued_s: float
+    outcomes: Mapping[JobState, int]
+    durations: tuple[DurationHistogram, ...]
+    crashes: int
+
+
+class Directive(StrEnum):
+    """What a running attempt should do."""
+
+    CONTINUE = "continue"
+    CANCELED = "canceled"
+    SUPERSEDED = "superseded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """Progress to store."""
+
+    stage: str
+    progress: float
+    energies: dict[str, float] = field(default_factory=dict[str, float])
+    view: int | None = None
+
+
+class Ending(StrEnum):
+    """How an attempt ended. ``CRASHED`` attempts are repeated up to a limit."""
+
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    CANCELED = "canceled"
+    TIMED_OUT = "timed_out"
+    CRASHED = "crashed"
+    SUPERSEDED = "superseded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AttemptResult:
+    """The result of an attempt: references to blobs, never the blobs themselves."""
+
+    ending: Ending
+    files: tuple[ResultFile, ...] = ()
+    problem: Problem | None = None
+    stage_seconds: Mapping[str, float] = field(default_factory=dict[str, float])

@@ -13,17 +13,21 @@ from typing import Final
 
 import sqlalchemy as sa
 
-from service.blobs import (
+from service.jobs.blobs import (
     BlobMissingError,
     BlobStore,
     BlobsUnavailableError,
     StorageRefusedError,
     StorageUnusableError,
 )
-from service.jobs.availability import retry_while_database_is_away
-from service.jobs.database import locked, opened
+from service.jobs.database import (
+    locked,
+    opened,
+    read_fact,
+    retry_while_database_is_away,
+    write_fact,
+)
 from service.jobs.tables import FACTS
-from service.jobs.transactions import read_fact, write_fact
 from service.process.retrying import retry_with_pauses
 
 STORAGE_FACT: Final = "storage"

@@ -51,7 +51,7 @@ JOBS = sa.Table(
 what of it. ``inputs`` are blobs by name, as JSON, in the fit's scope, ``pictures`` of them pictures
 of a person; ``webhook_target`` is the digest of another, which holds whom to notify and the secret
 to sign with. It is not in the database, because databases keep what was deleted in dead rows, logs
-and backups. ``turn`` says when it is begun (:mod:`service.jobs.turns`). ``claimed_by`` is the
+and backups. ``turn`` says when it is begun (:mod:`service.jobs.submit`). ``claimed_by`` is the
 worker that runs the job or is about to (:mod:`service.jobs.claims`); ``worker_deaths`` counts
 those that died over it, and is None until one did."""
 
@@ -116,15 +116,9 @@ API_KEYS = sa.Table(
     sa.Column("secret_hash", sa.String(64), nullable=False, unique=True),
     sa.Column("created_at", sa.Double, nullable=False),
     sa.Column("revoked_at", sa.Double),
+    sa.Column("used_at", sa.Double),
 )
-
-KEY_USES = sa.Table(
-    "maquette_key_uses",
-    METADATA,
-    sa.Column("key_id", sa.String(16), primary_key=True),
-    sa.Column("used_at", sa.Double, nullable=False),
-)
-"""When keys were last used, to the minute; apart from the keys, whose table is that of 1.0."""
+"""``used_at`` is when a key was last used, to the minute."""
 
 OUTCOMES = sa.Table(
     "maquette_outcomes",
@@ -152,15 +146,9 @@ WORKERS = sa.Table(
     sa.Column("pid", sa.Integer, nullable=False),
     sa.Column("pid_started", sa.String(32), nullable=False),
     sa.Column("beat", sa.Integer, nullable=False),
-    sa.Column("started_at", sa.Double, nullable=False),
+    sa.Column("able", sa.Boolean, nullable=False),
 )
-
-UNABLE_WORKERS = sa.Table(
-    "maquette_unable_workers",
-    METADATA,
-    sa.Column("executor_id", sa.String(64), primary_key=True),
-)
-"""Workers that are alive and cannot start the process of a job: a row each, for as long."""
+"""Workers that beat; one that is not ``able`` is alive and cannot start the process of a job."""
 
 FACTS = sa.Table(
     "maquette_facts",

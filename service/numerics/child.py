@@ -19,7 +19,7 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import Final
 
-from service.jobs.port import Report
+from service.jobs.records import Report
 from service.numerics.messages import (
     DoneMessage,
     FaultMessage,

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import cast
 
 from api_schemas.problems import Problem
-from service.jobs.port import Report
+from service.jobs.records import Report
 from service.settings import Settings
 
 

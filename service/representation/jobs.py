@@ -5,8 +5,7 @@ from typing import Final
 from uuid import UUID
 
 from api_schemas.jobs import Fit, FitLinks, JobState
-from service.jobs.port import JobRecord
-from service.jobs.states import ACTIVE
+from service.jobs.records import ACTIVE, JobRecord
 
 FITS: Final = "/v1/fits"
 """Path of the fits below the service's root."""

@@ -7,7 +7,7 @@ from api_schemas.jobs import JobState
 from api_schemas.products import Product, ProductDocument, ProductLinks
 from api_schemas.products.base import ProductKind
 from service.jobs.inputs import RESULT
-from service.jobs.port import JobRecord, StoredBlob
+from service.jobs.records import JobRecord, StoredBlob
 from service.representation.jobs import fit_path
 
 PRODUCTS: Final = "products"

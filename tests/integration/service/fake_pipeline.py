@@ -27,7 +27,7 @@ from service.compute.pipeline_port import (
 )
 from service.compute.tasks import job_tasks
 from service.jobs.inputs import PERSON, SentPicture
-from service.jobs.port import Report
+from service.jobs.records import Report
 from tests.integration.service.fake_products import made_product
 from tests.integration.service.fake_results import fit_result, result_files
 

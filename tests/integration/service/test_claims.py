@@ -10,12 +10,10 @@ from api_schemas.jobs import JobState
 from service.jobs.attempts import AttemptLog
 from service.jobs.claims import MAX_WORKER_DEATHS, Claims
 from service.jobs.database import open_database, prepare_database
-from service.jobs.records import find_job
+from service.jobs.rows import find_job
 from service.jobs.tables import JOBS
 from tests.integration.service.harness import Machine
-from tests.stored_jobs import insert_job
-
-RETENTION_S = 60.0
+from tests.stored_jobs import ENDINGS, insert_job
 
 
 @pytest.fixture
@@ -28,7 +26,7 @@ def database(machine: Machine) -> Iterator[sa.Engine]:
 
 
 def claims(database: sa.Engine, worker: str) -> Claims:
-    return Claims(database, executor_id=worker, retention_s=RETENTION_S)
+    return Claims(database, executor_id=worker, endings=ENDINGS)
 
 
 def attempts(database: sa.Engine, worker: str) -> AttemptLog:
@@ -36,7 +34,7 @@ def attempts(database: sa.Engine, worker: str) -> AttemptLog:
         database,
         executor_id=worker,
         max_crashes=3,
-        retention_s=RETENTION_S,
+        endings=ENDINGS,
         leave_slot=lambda _: None,
     )
 

@@ -11,17 +11,17 @@ import sqlalchemy as sa
 from sqlalchemy import event
 
 from api_schemas.jobs import JobState
-from service.jobs.database import open_database
-from service.jobs.dbos_jobs import JobEngine
-from service.jobs.expiry import expire_jobs
-from service.jobs.port import NewJob, StoredBlob, SubmitOutcome
-from service.jobs.records import end_job, move_job
+from service.jobs.database import open_database, read_fact, read_then_write, write_fact
+from service.jobs.engine import JobEngine
+from service.jobs.records import NewJob, StoredBlob, SubmitOutcome
+from service.jobs.rows import Endings, move_job
+from service.jobs.sweep import expire_jobs
 from service.jobs.tables import JOBS, TOMBSTONES
-from service.jobs.transactions import read_then_write
-from tests.integration.service.harness import Machine
+from tests.integration.service.harness import PATIENCE_S, Machine
 from tests.integration.service.test_images import engine_of
 
 TIME_TO_INTERFERE_S = 1.0
+FACT = "something"
 BLOB = StoredBlob(digest="0" * 64, media_type="application/json")
 
 
@@ -70,18 +70,18 @@ def interfered_with(read: str, act: Callable[[], Any], *, reading: int = 1) -> I
 
 
 def accept(jobs: Any, name: str) -> SubmitOutcome:
-    jobs.reserve(name, None)
+    submissions = jobs.submissions
+    submissions.reserve(name, None)
     new = NewJob(id=name, kind="fit", options=BLOB, inputs={})
-    return jobs.submit(new).outcome
+    return submissions.submit(new).outcome
 
 
 def fitted(engine: JobEngine, database: sa.Engine, name: str, *, kept_s: float) -> None:
     assert accept(engine.of("ours"), name) is SubmitOutcome.ACCEPTED
     with database.begin() as connection:
         move_job(connection, name, state=JobState.RUNNING, values={"attempt": 1})
-        end_job(
-            connection, name, state=JobState.SUCCEEDED, retention_s=kept_s, notify=lambda *_: None
-        )
+        endings = Endings(retention_s=kept_s, notify=lambda *_: None)
+        endings.end(connection, name, state=JobState.SUCCEEDED)
 
 
 def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
@@ -97,3 +97,38 @@ def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
     assert other == [0]
     with database.connect() as connection:
         assert connection.execute(sa.select(TOMBSTONES.c.id)).scalars().all() == ["short"]
+
+
+def stored(database: sa.Engine) -> str | None:
+    with database.connect() as connection:
+        return read_fact(connection, FACT)
+
+
+def test_a_fact_is_written_once_and_again(database: sa.Engine):
+    assert stored(database) is None
+    for value in ("first", "second"):
+        with database.begin() as connection:
+            write_fact(connection, FACT, value)
+        assert stored(database) == value
+
+
+def test_of_two_who_write_at_once_none_fails(database: sa.Engine):
+    failures: list[Exception] = []
+
+    def write_second() -> None:
+        try:
+            with database.begin() as connection:
+                write_fact(connection, FACT, "second")
+        except sa.exc.SQLAlchemyError as error:
+            failures.append(error)
+
+    other = threading.Thread(target=write_second)
+    with database.begin() as connection:
+        write_fact(connection, FACT, "first")
+        other.start()
+        # It stands before the row that the first has not committed.
+        other.join(timeout=0.5)
+        assert other.is_alive()
+    other.join(timeout=PATIENCE_S)
+    assert not failures
+    assert stored(database) == "second"

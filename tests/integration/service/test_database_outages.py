@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service.jobs.port import FIT, NewJob, StoredBlob
+from service.jobs.records import FIT, NewJob, StoredBlob
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import Machine, running_service
@@ -54,9 +54,9 @@ def test_erasing_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
 ):
     with contextlib.ExitStack() as stack:
         jobs = stack.enter_context(contextlib.closing(engine_of(machine))).of("somebody")
-        jobs.reserve("a", None)
+        jobs.submissions.reserve("a", None)
         options = StoredBlob(digest="0" * 64, media_type="application/json")
-        jobs.submit(NewJob(id="a", kind=FIT, options=options, inputs={}))
+        jobs.submissions.submit(NewJob(id="a", kind=FIT, options=options, inputs={}))
         proceed = jobs._forget_traces
 
         def go_away_first(of: Sequence[str]) -> None:

@@ -15,9 +15,9 @@ from service.jobs.claims import Claims
 from service.jobs.database import open_database, prepare_database
 from service.jobs.executions import Executions
 from service.jobs.heartbeat import DROPPED_AFTER_S, Heartbeat
-from service.jobs.worker_slots import WorkerSlots
+from service.jobs.slots import WorkerSlots
 from tests.integration.service.harness import Machine, eventually
-from tests.stored_jobs import insert_job
+from tests.stored_jobs import ENDINGS, insert_job
 
 AWAY = OperationalError("SELECT 1", {}, ConnectionError("The server is away."))
 NO_CONNECTION = PoolTimeoutError("QueuePool limit of size 8 overflow 0 reached")
@@ -35,7 +35,7 @@ class Worker:
         self.beats = 0
         with database.begin() as connection:
             insert_job(connection, "job", turn=1)
-        self.claims = Claims(database, executor_id="worker", retention_s=60.0)
+        self.claims = Claims(database, executor_id="worker", endings=ENDINGS)
         self.slots = WorkerSlots(1, poll_s=0.1)
         self.heartbeat = Heartbeat(
             database,

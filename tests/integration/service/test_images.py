@@ -8,7 +8,7 @@ import pytest
 
 from api_schemas.picture import UploadedImage
 from service.jobs.database import open_database, prepare_database
-from service.jobs.dbos_jobs import JobEngine
+from service.jobs.engine import JobEngine
 from service.jobs.images import NewImage
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image

@@ -5,8 +5,8 @@ from uuid import uuid4
 
 import pytest
 
-from service.jobs.dbos_jobs import JobEngine
-from service.jobs.port import FIT, NewJob, StoredBlob, SubmitOutcome
+from service.jobs.engine import JobEngine
+from service.jobs.records import FIT, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service
 from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_images import engine_of
@@ -83,9 +83,9 @@ def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service,
 def accept(engine: JobEngine, tenant: str, job_id: str, label: str) -> None:
     blob = StoredBlob(digest="0" * 64, media_type="application/json")
     jobs = engine.of(tenant)
-    jobs.reserve(job_id, None)
+    jobs.submissions.reserve(job_id, None)
     job = NewJob(id=job_id, kind=FIT, options=blob, inputs={}, label=label)
-    assert jobs.submit(job).outcome is SubmitOutcome.ACCEPTED
+    assert jobs.submissions.submit(job).outcome is SubmitOutcome.ACCEPTED
 
 
 def test_a_tenant_sees_its_own_labels_alone(machine: Machine):

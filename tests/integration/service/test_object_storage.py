@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, open_blob_store
 from service.cli import main
+from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, open_blob_store
 from service.settings import Settings
 from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
 
@@ -58,7 +58,7 @@ def test_erasing_a_scope_leaves_its_neighbours(blobs, storage):
 
 
 def test_more_objects_than_one_listing_holds_are_erased(blobs, storage, monkeypatch):
-    monkeypatch.setattr("service.blobs.s3.LISTED_AT_ONCE", 2)
+    monkeypatch.setattr("service.jobs.blobs_s3.LISTED_AT_ONCE", 2)
     for number in range(5):
         storage.client.put_object(Bucket=storage.bucket, Key=f"blobs/job-1/{number}", Body=b"")
     blobs.erase("job-1")
@@ -98,7 +98,7 @@ def test_a_bucket_that_is_not_there_is_said_so(storage):
 
 @pytest.mark.usefixtures("_credentials")
 def test_a_server_that_is_not_there_is_said_so(monkeypatch):
-    monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
+    monkeypatch.setattr("service.jobs.blobs_s3.ATTEMPTS", 1)
     monkeypatch.setenv("AWS_ENDPOINT_URL_S3", "http://127.0.0.1:9")
     with pytest.raises(BlobsUnavailableError, match="cannot be reached"):
         open_blob_store(Settings(blob_url="s3://bucket")).check_writable()
@@ -119,7 +119,7 @@ def test_preparing_makes_tables_and_bucket_and_may_be_repeated(storage, monkeypa
 
 @pytest.mark.usefixtures("_credentials")
 def test_a_bucket_that_cannot_be_made_is_told_in_a_line(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
+    monkeypatch.setattr("service.jobs.blobs_s3.ATTEMPTS", 1)
     monkeypatch.setattr("service.process.retrying.RETRY_FOR_S", 0.0)
     monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
     monkeypatch.setenv("MAQUETTE_BLOB_URL", "s3://bucket")

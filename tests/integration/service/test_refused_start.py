@@ -227,7 +227,7 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
         "import os, pwd, sys\n"
         "from service.commands.prepare import run_preflight\n"
         "from service.startup import begin, run_told\n"
-        "import service.jobs.port, sqlalchemy.exc\n"
+        "import service.jobs.records, sqlalchemy.exc\n"
         "settings = begin('serve')\n"
         "os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"
         "sys.exit(run_told('serve', lambda: run_preflight(settings)))\n"

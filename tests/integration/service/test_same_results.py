@@ -8,7 +8,7 @@ import pytest
 from api_schemas.products import ProductRequest
 from service.compute.tasks import OPTIONS, PRODUCT, STAGE_SECONDS
 from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
-from service.jobs.port import FIT
+from service.jobs.records import FIT
 from service.numerics.fork_server import Child, ForkServer
 from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
 from service.numerics.tasks import ChildSetup

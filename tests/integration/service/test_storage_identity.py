@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from service.blobs import StorageUnusableError
-from service.blobs.local import LocalBlobStore
+from service.jobs.blobs import StorageUnusableError
+from service.jobs.blobs_local import LocalBlobStore
 from service.jobs.database import open_database, prepare_database
 from service.jobs.storage_identity import STORAGE_FACT, check_storage, take_storage
 from service.jobs.tables import FACTS

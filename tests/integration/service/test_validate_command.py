@@ -9,7 +9,7 @@ import pytest
 from service.cli import main
 from service.commands.validate import REPORT, validate
 from service.compute.pipeline_port import PipelineInput, PipelineOutput
-from service.jobs.port import Report
+from service.jobs.records import Report
 from tests.integration.service import fake_pipeline
 from tests.integration.service.fake_pipeline import scripted_image
 

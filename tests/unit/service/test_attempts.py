@@ -8,10 +8,19 @@ from api_schemas.problems import problem
 from api_schemas.results import ResultFile
 from service.jobs.attempts import AttemptLog, Computed, computed_from_json, computed_to_json
 from service.jobs.database import open_database
-from service.jobs.port import AttemptResult, Directive, Ending, Report
-from service.jobs.records import find_job
+from service.jobs.records import (
+    ACTIVE,
+    TERMINAL,
+    TRANSITIONS,
+    AttemptResult,
+    Directive,
+    Ending,
+    Report,
+    may_become,
+)
+from service.jobs.rows import find_job
 from service.jobs.tables import EVENTS, JOBS, METADATA
-from tests.stored_jobs import insert_job
+from tests.stored_jobs import ENDINGS, insert_job
 
 JOB = "00000000-0000-0000-0000-000000000001"
 ARTIFACT = ResultFile(name="a.png", media_type="image/png", size=1, sha256="0" * 64)
@@ -33,7 +42,7 @@ def log(database: sa.Engine, name: str = "worker-1") -> AttemptLog:
         database,
         executor_id=name,
         max_crashes=3,
-        retention_s=60.0,
+        endings=ENDINGS,
         leave_slot=lambda _: None,
     )
 
@@ -48,6 +57,28 @@ def job(database: sa.Engine):
 def change(database: sa.Engine, **values: object) -> None:
     with database.begin() as connection:
         connection.execute(sa.update(JOBS).values(**values))
+
+
+def test_every_state_is_either_active_or_terminal():
+    assert set(JobState) == ACTIVE | TERMINAL
+    assert not ACTIVE & TERMINAL
+
+
+def test_a_terminal_state_is_never_left():
+    assert all(not TRANSITIONS[state] for state in TERMINAL)
+
+
+def test_every_terminal_state_can_be_reached_from_running():
+    assert TRANSITIONS[JobState.RUNNING] >= TERMINAL
+
+
+def test_nothing_succeeds_or_times_out_without_running():
+    assert may_become(JobState.SUCCEEDED) == {JobState.RUNNING}
+    assert may_become(JobState.TIMED_OUT) == {JobState.RUNNING}
+
+
+def test_a_job_whose_worker_stops_goes_back_to_the_queue():
+    assert may_become(JobState.QUEUED) == {JobState.RUNNING}
 
 
 def test_an_attempt_runs_and_ends(database):

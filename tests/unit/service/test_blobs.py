@@ -7,12 +7,12 @@ import sys
 
 import pytest
 
-from service.blobs import BlobMissingError, StorageFullError
-from service.blobs.local import LocalBlobStore
+from service.jobs.blobs import BlobMissingError, StorageFullError
+from service.jobs.blobs_local import LocalBlobStore
 
 KILLED_WHILE_WRITING = """
 import os, pathlib, signal, sys
-from service.blobs.local import LocalBlobStore
+from service.jobs.blobs_local import LocalBlobStore
 os.fsync = lambda _: os.kill(os.getpid(), signal.SIGKILL)
 LocalBlobStore(pathlib.Path(sys.argv[1])).put("job-1", b"picture")
 """

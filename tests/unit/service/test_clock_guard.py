@@ -1,6 +1,6 @@
 """What expires is asked with a time that was seen to run evenly."""
 
-from service.jobs.expiry import SETTLING_S, ClockGuard
+from service.jobs.sweep import SETTLING_S, ClockGuard
 
 
 class Clocks:

@@ -6,7 +6,7 @@ import pytest
 import sqlalchemy as sa
 
 from service.jobs.database import check_database, open_database, prepare_database
-from service.jobs.port import DatabaseUnusableError
+from service.jobs.records import DatabaseUnusableError
 
 
 def test_tables_of_another_version_are_refused(tmp_path: Path):
@@ -21,6 +21,6 @@ def test_tables_of_another_version_are_refused(tmp_path: Path):
         )
     database.dispose()
     for begin in (check_database, prepare_database):
-        with pytest.raises(DatabaseUnusableError, match="tables 7, here 8") as refused:
+        with pytest.raises(DatabaseUnusableError, match="tables 7, here 9") as refused:
             begin(url)
         assert "\n" not in str(refused.value)

@@ -6,8 +6,8 @@ import pytest
 
 from service.api.problems import ProblemError
 from service.api.storage import erase_blobs
-from service.blobs import BlobsUnavailableError
-from service.blobs.local import LocalBlobStore
+from service.jobs.blobs import BlobsUnavailableError
+from service.jobs.blobs_local import LocalBlobStore
 
 
 class Storage(LocalBlobStore):

@@ -11,7 +11,7 @@ import pytest
 
 from api_schemas.jobs import EventData, EventKind, JobState
 from service.api import events
-from service.jobs.port import EngineUnavailableError, JobEvent
+from service.jobs.records import EngineUnavailableError, JobEvent
 
 
 class Jobs:

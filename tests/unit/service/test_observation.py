@@ -10,7 +10,7 @@ from starlette.types import Message, Receive, Scope, Send
 
 from service.api.metrics import ServiceMetrics
 from service.api.observation import Observation
-from service.jobs.dbos_jobs import JobEngine
+from service.jobs.engine import JobEngine
 from service.process.data_folder import Disk
 
 SCOPE = {

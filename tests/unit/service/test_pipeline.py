@@ -14,7 +14,7 @@ from fitter.vocabulary.choices import Clothing, Cues, Gender, OptimizerKind, Vie
 from service.compute import pipeline
 from service.compute.pipeline_port import PipelineInput, UnusableInputError
 from service.jobs.inputs import SentPicture
-from service.jobs.port import Report
+from service.jobs.records import Report
 
 PERSON: dict[str, Any] = {
     "gender": "female",

@@ -11,7 +11,7 @@ import pytest
 from api_schemas.service import Ready
 from service.api.problems import ProblemError
 from service.api.readiness import Look, Readiness, not_ready
-from service.jobs.port import EngineUnavailableError
+from service.jobs.records import EngineUnavailableError
 
 PATIENCE_S = 600.0
 """A guard against hanging."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.jobs.turns import QueueSight, next_turn
+from service.jobs.submit import QueueSight, next_turn
 
 ALICE, BOB, CAROL = "alice", "bob", "carol"
 ALICES_PRODUCTS = "alice products"

@@ -3,12 +3,7 @@ import ipaddress
 
 import pytest
 
-from service.webhooks.addresses import (
-    AddressRefusedError,
-    is_public,
-    is_refused_outright,
-    resolve,
-)
+from service.jobs.addresses import AddressRefusedError, is_public, is_refused_outright, resolve
 
 PRIVATE = [
     "0.0.0.0",

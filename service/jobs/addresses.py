@@ -14,6 +14,10 @@ from typing import Final
 
 import httpx
 
+from api_schemas.jobs import WebhookTarget
+from api_schemas.problems import FieldProblem
+from service.settings import Settings
+
 IPAddress = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 GLOBAL_UNICAST: Final = ipaddress.IPv6Network("2000::/3")
@@ -84,16 +88,6 @@ def _carried(address: ipaddress.IPv6Address) -> list[ipaddress.IPv4Address]:
     return [each for each in carried if each is not None]
 
 
-def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
-    """Whether a host can be refused without resolving it: a literal address, or localhost."""
-    if host in allowed_hosts:
-        return False
-    try:
-        return not is_public(ipaddress.ip_address(host))
-    except ValueError:
-        return host == "localhost" or host.endswith(".localhost")
-
-
 def port_of(url: httpx.URL) -> int:
     """The port of an address, explicit or default."""
     return DEFAULT_PORTS[url.scheme] if url.port is None else url.port
@@ -102,6 +96,57 @@ def port_of(url: httpx.URL) -> int:
 def is_port_refused(url: httpx.URL, allowed_hosts: Collection[str]) -> bool:
     """Whether notices are not sent to an address's port; allowed hosts may use any."""
     return url.host not in allowed_hosts and port_of(url) not in PORTS
+
+
+def target_fault(target: WebhookTarget, settings: Settings) -> FieldProblem | None:
+    """Why no notice can be sent there or signed; None if one can, as far as the request says.
+
+    Names are looked up only when a notice is sent.
+    """
+    try:
+        url = httpx.URL(target.url)
+    except httpx.InvalidURL:
+        return FieldProblem(
+            field="webhook.url",
+            code="unusable-address",
+            reason="This is no address of a web server.",
+            remedy="Send an address such as https://example.org/hooks/maquette.",
+        )
+    allowed_hosts = settings.allowed_webhook_hosts
+    if is_refused_outright(url.host, allowed_hosts):
+        return FieldProblem(
+            field="webhook.url",
+            code="address-not-public",
+            reason="Notices are sent to public addresses only.",
+            remedy="Name a public host; whoever runs the service may allow others by "
+            "MAQUETTE_WEBHOOK_HOSTS.",
+        )
+    if is_port_refused(url, allowed_hosts):
+        return FieldProblem(
+            field="webhook.url",
+            code="port-not-allowed",
+            reason=f"Notices are not sent to port {port_of(url)}.",
+            remedy=f"Receive them at port {' or '.join(map(str, PORTS))}; whoever runs the "
+            "service may allow a host's others by MAQUETTE_WEBHOOK_HOSTS.",
+        )
+    if target.secret is None and settings.webhook_secret is None:
+        return FieldProblem(
+            field="webhook.secret",
+            code="missing",
+            reason="This service has no secret of its own to sign notices with.",
+            remedy="Send one; make it with: echo whsec_$(openssl rand -base64 32)",
+        )
+    return None
+
+
+def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
+    """Whether a host can be refused without resolving it: a literal address, or localhost."""
+    if host in allowed_hosts:
+        return False
+    try:
+        return not is_public(ipaddress.ip_address(host))
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
 
 
 async def resolve(host: str, port: int, allowed_hosts: Collection[str]) -> Sequence[IPAddress]:

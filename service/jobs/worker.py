@@ -1,4 +1,4 @@
-"""The worker's side of the engine on DBOS: claim, run, publish, survive.
+"""The worker's side of the engine: claim, run, publish, survive.
 
 The worker claims jobs in their records (:mod:`service.jobs.claims`) when it has a slot for them,
 and has DBOS execute each under the job's id. DBOS keeps what the execution has done: when its
@@ -18,11 +18,15 @@ import sqlalchemy as sa
 from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
 
 from api_schemas.service import BodyModels
-from service.blobs import BlobStore, BlobsUnavailableError
-from service.jobs.attempts import AttemptLog, computed_from_json, computed_to_json
-from service.jobs.availability import ABSENCES
+from service.jobs.attempts import (
+    AttemptHandler,
+    AttemptLog,
+    computed_from_json,
+    computed_to_json,
+)
+from service.jobs.blobs import BlobStore, BlobsUnavailableError
 from service.jobs.claims import Claims
-from service.jobs.dbos_jobs import BODY_MODELS_FACT
+from service.jobs.database import ABSENCES, BODY_MODELS_FACT, write_fact
 from service.jobs.executions import (
     APPLICATION,
     EXECUTION_VERSION,
@@ -32,15 +36,16 @@ from service.jobs.executions import (
     queue_of,
 )
 from service.jobs.heartbeat import Heartbeat
-from service.jobs.port import AttemptHandler, Ending
-from service.jobs.transactions import write_fact
-from service.jobs.worker_slots import WorkerSlots
+from service.jobs.notices import Notices
+from service.jobs.records import Ending
+from service.jobs.rows import Endings
+from service.jobs.slots import WorkerSlots
 from service.process.data_folder import Disk
 from service.process.logs import fields, log_context
 
 LOG: Final = logging.getLogger(__name__)
 
-QUEUE_POLL_S: Final = 0.1
+QUEUE_POLL_S: Final = 0.05
 """How often an idle worker looks for jobs."""
 
 AWAY_PAUSE_S: Final = 1.0
@@ -78,12 +83,13 @@ class WorkerEngine:
         self._is_holding_back = False
         self._slots = WorkerSlots(processes, poll_s=QUEUE_POLL_S)
         self._executions = Executions(database)
-        self._claims = Claims(database, executor_id=self.executor_id, retention_s=retention_s)
+        endings = Endings(retention_s=retention_s, notify=Notices(database).enqueue)
+        self._claims = Claims(database, executor_id=self.executor_id, endings=endings)
         self._attempts = AttemptLog(
             database,
             executor_id=self.executor_id,
             max_crashes=max_crashes,
-            retention_s=retention_s,
+            endings=endings,
             leave_slot=self._slots.leave,
         )
         self._heartbeat = Heartbeat(
@@ -104,12 +110,7 @@ class WorkerEngine:
             daemon=True,
         )
 
-    def start(
-        self,
-        handler: AttemptHandler,
-        *,
-        body_models: BodyModels,
-    ) -> None:
+    def start(self, handler: AttemptHandler, *, body_models: BodyModels) -> None:
         """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
 
         While the worker is not able to run any, jobs are left waiting, for this one or another,
@@ -128,7 +129,8 @@ class WorkerEngine:
         )
         self._register(handler)
         DBOS.listen_queues([queue_of(self.executor_id)])
-        self._store_body_models(body_models)
+        with self._database.begin() as connection:
+            write_fact(connection, BODY_MODELS_FACT, body_models.model_dump_json())
         self._heartbeat.register()
         DBOS.launch()
         self._heartbeat.start()
@@ -272,7 +274,3 @@ class WorkerEngine:
             else:
                 LOG.info("There is room on the disk again: jobs are begun.")
         return not is_short
-
-    def _store_body_models(self, body_models: BodyModels) -> None:
-        with self._database.begin() as connection:
-            write_fact(connection, BODY_MODELS_FACT, body_models.model_dump_json())

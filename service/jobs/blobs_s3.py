@@ -16,7 +16,7 @@ import boto3
 from botocore.config import Config
 from botocore.exceptions import BotoCoreError, ClientError
 
-from service.blobs.port import (
+from service.jobs.blobs import (
     BlobMissingError,
     BlobsUnavailableError,
     StorageFullError,

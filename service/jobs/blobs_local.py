@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
+from service.jobs.blobs import BlobMissingError, BlobsUnavailableError, StorageFullError
 from service.process.data_folder import make_private_folder
 
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})

@@ -1,21 +1,12 @@
 """The slots a worker's jobs run in, and when the worker looks for more jobs."""
 
 import logging
-import math
 import threading
 import time
 from collections.abc import Callable, Collection
 from typing import Final
 
 LOG: Final = logging.getLogger(__name__)
-
-SETTLING_S: Final = 0.1
-"""How long to look often for jobs after a slot was left: what comes next may be about to be
-submitted."""
-
-LOOK_S: Final = 0.02
-"""How long to wait between two looks for so long."""
-
 
 FAULT_PAUSE_S: Final = 1.0
 """How long to wait after a look that failed."""
@@ -29,17 +20,13 @@ class WorkerSlots:
     to store its result; no more jobs may be about that than there are slots.
     """
 
-    def __init__(
-        self, count: int, *, poll_s: float, monotonic: Callable[[], float] = time.monotonic
-    ) -> None:
-        self.count = count
+    def __init__(self, count: int, *, poll_s: float) -> None:
+        self._count = count
         self._poll_s = poll_s
-        self._monotonic = monotonic
         self._taken: set[str] = set()
         self._running: set[str] = set()
         self._leaving: set[str] = set()
         self._changed = threading.Condition()
-        self._left_at = -math.inf
         self._is_left = False
         self._closed = False
 
@@ -113,14 +100,10 @@ class WorkerSlots:
         """Return when it is time to look once more, after a look that found nothing.
 
         That is at once if a slot has been left since the last time, else after ``poll_s`` or when
-        one is; just after one was left, after ``LOOK_S``.
+        one is.
         """
         with self._changed:
-            is_settled = self._monotonic() - self._left_at >= SETTLING_S
-            self._changed.wait_for(
-                lambda: self._closed or self._is_left,
-                timeout=self._poll_s if is_settled else min(LOOK_S, self._poll_s),
-            )
+            self._changed.wait_for(lambda: self._closed or self._is_left, timeout=self._poll_s)
             self._is_left = False
 
     @property
@@ -145,9 +128,8 @@ class WorkerSlots:
         if self._closed:
             return 0
         running = len(self._taken) + len(self._running)
-        return min(self.count - running, 2 * self.count - running - len(self._leaving))
+        return min(self._count - running, 2 * self._count - running - len(self._leaving))
 
     def _report_left(self) -> None:
         self._is_left = True
-        self._left_at = self._monotonic()
         self._changed.notify_all()

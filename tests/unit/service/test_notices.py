@@ -1,7 +1,10 @@
-"""Over TLS: the address is pinned, the certificate is the name's."""
+"""Notices: how they are signed, and sent over TLS, where the address is pinned."""
 
 import asyncio
+import base64
 import datetime
+import hashlib
+import hmac
 import http.server
 import socket
 import ssl
@@ -14,9 +17,11 @@ from cryptography import x509
 from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import NameOID
+from pydantic import ValidationError
 
-from service.webhooks import notices
-from service.webhooks.notices import NotAcceptedError, Sender
+from api_schemas.jobs import WebhookTarget
+from service.jobs import notices
+from service.jobs.notices import NotAcceptedError, Sender, signed_headers
 
 NAME = "hooks.example"
 PATIENCE_S = 600.0
@@ -86,7 +91,7 @@ def self_signed(name: str) -> tuple[bytes, bytes]:
 
 def sender(*allowed_hosts: str, tls: ssl.SSLContext | None = None) -> Sender:
     """Of what is not needed here it has nothing."""
-    return Sender(None, secret=None, allowed_hosts=allowed_hosts, tls=tls)  # pyright: ignore
+    return Sender(None, None, secret=None, allowed_hosts=allowed_hosts, tls=tls)  # pyright: ignore
 
 
 def posted(server: Server, name: str, monkeypatch) -> int:
@@ -153,3 +158,62 @@ def test_other_ports_than_the_usual_are_not_even_looked_up(url: str, monkeypatch
 
     with pytest.raises(NotAcceptedError, match="port"):
         asyncio.run(post())
+
+
+SECRET = "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw"
+
+
+def test_the_signature_is_the_one_of_the_standards_example():
+    """Message, secret and signature are those of the specification's reference libraries."""
+    headers = signed_headers(
+        notice_id="msg_p5jXN8AQM9LWM0D4loKWxJek",
+        timestamp=1614265330,
+        body=b'{"test": 2432232314}',
+        secret=SECRET,
+    )
+    assert headers == {
+        "webhook-id": "msg_p5jXN8AQM9LWM0D4loKWxJek",
+        "webhook-timestamp": "1614265330",
+        "webhook-signature": "v1,g0hM9SsE+OTPJTGt/tmIKtSyZlE3uFJELVlNIOLJ1OE=",
+    }
+
+
+@pytest.mark.parametrize("change", ["id", "timestamp", "body", "secret"])
+def test_the_signature_covers_everything(change):
+    values = {"notice_id": "a", "timestamp": 1, "body": b"{}", "secret": SECRET}
+    changed = {
+        "id": {"notice_id": "b"},
+        "timestamp": {"timestamp": 2},
+        "body": {"body": b"[]"},
+        "secret": {"secret": "whsec_" + base64.b64encode(bytes(24)).decode()},
+    }[change]
+    one, other = signed_headers(**values), signed_headers(**(values | changed))
+    assert one["webhook-signature"] != other["webhook-signature"]
+
+
+def test_the_key_is_what_the_secret_encodes():
+    key = bytes(range(32))
+    secret = "whsec_" + base64.b64encode(key).decode()
+    headers = signed_headers(notice_id="n", timestamp=7, body=b"x", secret=secret)
+    expected = base64.b64encode(hmac.new(key, b"n.7.x", hashlib.sha256).digest()).decode()
+    assert headers["webhook-signature"] == f"v1,{expected}"
+
+
+@pytest.mark.parametrize(
+    "secret",
+    [
+        base64.b64encode(bytes(32)).decode(),
+        "whsec_" + base64.b64encode(bytes(23)).decode(),
+        "whsec_" + base64.b64encode(bytes(65)).decode(),
+        "whsec_not base64!",
+    ],
+)
+def test_a_weak_or_malformed_secret_is_refused(secret):
+    with pytest.raises(ValidationError):
+        WebhookTarget(url="https://example.org/", secret=secret)
+
+
+@pytest.mark.parametrize("length", range(24, 65))
+def test_every_length_the_standard_allows_is_accepted(length):
+    secret = "whsec_" + base64.b64encode(bytes(length)).decode()
+    assert WebhookTarget(url="https://example.org/", secret=secret).secret == secret

@@ -7,14 +7,14 @@ from contextlib import contextmanager
 
 import pytest
 
-from service.jobs.worker_slots import SETTLING_S, WorkerSlots
+from service.jobs.slots import WorkerSlots
 
 LONG_S = 6_000.0
 PATIENCE_S = 600.0
 
 
-def slots_of(count: int, monotonic: Callable[[], float] = lambda: 5.0) -> WorkerSlots:
-    return WorkerSlots(count, poll_s=LONG_S, monotonic=monotonic)
+def slots_of(count: int) -> WorkerSlots:
+    return WorkerSlots(count, poll_s=LONG_S)
 
 
 @contextmanager
@@ -108,20 +108,6 @@ def test_the_end_of_a_job_is_followed_by_a_look_at_once():
     slots.free("one")
     with waiting(slots.await_next_look):
         pass
-
-
-def test_just_after_an_end_looks_follow_each_other_quickly_and_later_at_the_pace():
-    now = 5.0
-    slots = slots_of(1, lambda: now)
-    slots.begin("one")
-    slots.free("one")
-    for _ in range(3):
-        with waiting(slots.await_next_look):
-            pass
-    now += 2.0 * SETTLING_S
-    with waiting(slots.await_next_look) as waiter:
-        assert is_waiting(waiter)
-        slots.close()
 
 
 def test_closed_slots_take_nobody_and_wait_for_those_who_have_one():
