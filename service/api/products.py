@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any, Final
+from uuid import uuid4
 
 from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
@@ -33,7 +34,7 @@ from service.api.renditions import chosen_rendition
 from service.api.storage import disk_full, erase_at_once, storing
 from service.api.uploads import MULTIPART, file_part, read_request_and_files
 from service.jobs.inputs import RESULT, product_inputs
-from service.jobs.records import ACTIVE, JobRecord, StoredBlob, Submission, SubmitOutcome
+from service.jobs.records import ACTIVE, JobRecord, NewJob, StoredBlob, Submission, SubmitOutcome
 from service.representation.jobs import FITS, POLL_AFTER_S
 from service.representation.products import (
     PRODUCTS,
