@@ -7,8 +7,8 @@ from api_schemas.fit import FitRequest as AskedFit
 from fitter.request import FitRequest
 from fitter.vocabulary.choices import Cues
 from service.jobs.inputs import SentPicture
+from service.submissions.refusal import parsed
 from service.submissions.submission import check_submission
-from service.submissions.validation import parsed
 
 SMALL = (120, 160)
 """Of so small a picture a fit by silhouette and edges takes less than a second."""

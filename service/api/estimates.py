@@ -28,8 +28,8 @@ from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, Ask, cap
 from service.numerics.tasks import Parts
 from service.process.logs import current_log_context
 from service.representation.formats import MeshFormat
-from service.submissions.detector import DETECTOR_MISSING
 from service.submissions.refusal import RefusedError
+from service.submissions.submission import DETECTOR_MISSING
 
 SPARE_THREADS: Final = 4
 """Threads beyond what the estimators take at a time: there, one too many is refused at once."""

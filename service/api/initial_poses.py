@@ -14,8 +14,8 @@ from service.api.images import known_image
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.problems import documented
 from service.estimates.questions import InitialPoseTask
-from service.submissions.point_rules import checked_points
 from service.submissions.refusal import refused
+from service.submissions.submission import checked_points
 
 ROUTER: Final = APIRouter(prefix="/v1/initial-poses", tags=["estimates"])
 

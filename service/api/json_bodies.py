@@ -7,7 +7,7 @@ from pydantic import BaseModel
 
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
-from service.submissions.validation import parsed
+from service.submissions.refusal import parsed
 
 JSON: Final = "application/json"
 MAX_JSON_BYTES: Final = 1_000_000

@@ -14,10 +14,8 @@ from service.api.images import image_content
 from service.api.json_bodies import JSON, json_content, media_type, read_json
 from service.api.problems import ProblemError, documented
 from service.api.uploads import picture_form, read_image_and_request
-from service.submissions.detector import detector_is_installed, no_detector
-from service.submissions.refusal import refused
-from service.submissions.submission import placed_question
-from service.submissions.validation import parsed
+from service.submissions.refusal import parsed, refused
+from service.submissions.submission import detector_is_installed, no_detector, placed_question
 
 ROUTER: Final = APIRouter(tags=["estimates"])
 

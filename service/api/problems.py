@@ -21,8 +21,7 @@ from api_schemas.problems import (
 )
 from service.jobs.blobs import BlobsUnavailableError, StorageFullError
 from service.jobs.records import EngineFullError, EngineUnavailableError, JobExpiredError
-from service.submissions.refusal import RefusedError
-from service.submissions.validation import field_problems
+from service.submissions.refusal import RefusedError, field_problems
 
 LOG: Final = logging.getLogger(__name__)
 

@@ -42,8 +42,7 @@ from service.representation.products import (
     product_path,
     represent_product,
 )
-from service.submissions.refusal import refused
-from service.submissions.validation import parsed
+from service.submissions.refusal import parsed, refused
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 

@@ -30,10 +30,8 @@ from service.estimates.questions import BodyTask
 from service.jobs.addresses import target_fault
 from service.jobs.inputs import SentPicture
 from service.representation.jobs import FITS, represent
-from service.submissions.detector import check_detector
-from service.submissions.refusal import of_view, refused
-from service.submissions.submission import CheckedSubmission, check_submission
-from service.submissions.validation import parsed
+from service.submissions.refusal import of_view, parsed, refused
+from service.submissions.submission import CheckedSubmission, check_detector, check_submission
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 

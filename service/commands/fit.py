@@ -22,10 +22,8 @@ from service.process.caches import settle_folders
 from service.representation.csv_tables import TABLE, measurements_csv
 from service.representation.formats import GLB_ENDING
 from service.settings import Settings
-from service.submissions.detector import check_detector
-from service.submissions.refusal import RefusedError
-from service.submissions.submission import check_submission
-from service.submissions.validation import parsed
+from service.submissions.refusal import RefusedError, parsed
+from service.submissions.submission import check_detector, check_submission
 
 PIPELINE: Final = "service.compute.pipeline"
 UNUSABLE_INPUT: Final = 2

@@ -27,7 +27,7 @@ from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import WEIGHT
 from service.jobs.inputs import SentPicture
 from service.jobs.records import Report
-from service.submissions.detector import DETECTOR_MISSING
+from service.submissions.submission import DETECTOR_MISSING
 
 SEEN = 2
 

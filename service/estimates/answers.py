@@ -28,7 +28,7 @@ from service.estimates.questions import (
     estimate_tasks,
 )
 from service.numerics.tasks import ProblemError
-from service.submissions.detector import no_detector
+from service.submissions.submission import no_detector
 
 _TOO_MUCH_MEMORY = FieldProblem(
     field="image",

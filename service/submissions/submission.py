@@ -6,15 +6,19 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
+
+from pydantic_core import PydanticCustomError
 
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
-from api_schemas.points import AUTO, Point, PointsFormat
-from api_schemas.problems import FieldProblem
+from api_schemas.points import AUTO, Point, Points, PointsFormat, named_points
+from api_schemas.problems import FieldProblem, Problem, problem
 from api_schemas.questions import PointsRequest
-from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY
-from fitter.vocabulary.points import PointName
+from fitter.detection.weights import INSTALLATION, detector_fault
+from fitter.observation import heif
+from fitter.vocabulary.points import PointFault, PointName, place_faults, shortage
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
 from service.submissions.image_header import (
     DamagedImageError,
@@ -24,10 +28,13 @@ from service.submissions.image_header import (
     UnknownImageError,
     read_image_header,
 )
-from service.submissions.point_rules import checked_points, placed_points
 from service.submissions.refusal import of_view, refused
 
 ACCEPTED_KINDS: Final = "JPEG, PNG, WebP or HEIC"
+
+DETECTOR_MISSING: Final = "detector-not-installed"
+NOT_INSTALLED: Final = "The detector that proposes points is not installed in this service."
+REMEDY: Final = f"Click the points, or have the detector installed: {INSTALLATION}."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -133,7 +140,12 @@ def check_picture(
     except UndecodedHeicError as error:
         # Of this machine alone: a fit fails with this code where its worker has no decoder.
         raise refused(
-            FieldProblem(field=field, code=NOT_INSTALLED_CODE, reason=NOT_INSTALLED, remedy=REMEDY),
+            FieldProblem(
+                field=field,
+                code=heif.NOT_INSTALLED_CODE,
+                reason=heif.NOT_INSTALLED,
+                remedy=heif.REMEDY,
+            ),
             slug="unsupported-media-type",
         ) from error
     except DamagedImageError as error:
@@ -192,8 +204,99 @@ def placed_question(
     Raises
     ------
     RefusedError
-        As :func:`check_picture` and :func:`service.submissions.point_rules.placed_points`.
+        As :func:`check_picture` and :func:`placed_points`.
     """
     header = check_picture("image", image, max_pixels=max_pixels, read=read)
     points = placed_points(asked.points, asked.format, width=header.width, height=header.height)
     return asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
+
+
+def checked_points(
+    points: Points, layout: PointsFormat, *, width: int, height: int
+) -> dict[PointName, Point]:
+    """Translate the points to named pixels of the upright picture and check them.
+
+    Raises
+    ------
+    RefusedError
+        As :func:`placed_points`, or if they are too few or too close together.
+    """
+    named = placed_points(points, layout, width=width, height=height)
+    fault = shortage(_places(named), width=width, height=height)
+    if fault is not None:
+        raise refused(_problem(fault))
+    return named
+
+
+def placed_points(
+    points: Points, layout: PointsFormat, *, width: int, height: int
+) -> dict[PointName, Point]:
+    """Translate the points and check what can be checked before others are added.
+
+    Raises
+    ------
+    RefusedError
+        If the layout does not fit the points, or one lies outside the picture.
+    """
+    try:
+        named = named_points(points, layout, width=width, height=height)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise refused(
+            FieldProblem(
+                field=str(context.get("field", "points")),
+                code=error.type,
+                reason=str(context.get("reason", error.message())),
+                remedy=str(context.get("remedy", "")),
+            )
+        ) from error
+    outside = [
+        _problem(fault) for fault in place_faults(_places(named), width=width, height=height)
+    ]
+    if outside:
+        raise refused(*outside)
+    return named
+
+
+def _places(points: Mapping[PointName, Point]) -> dict[str, tuple[float, float]]:
+    return {name: (point.x, point.y) for name, point in points.items()}
+
+
+def _problem(fault: PointFault) -> FieldProblem:
+    return FieldProblem(
+        field=fault.field, code=fault.code, reason=fault.reason, remedy=fault.remedy
+    )
+
+
+def detector_is_installed(folder: Path | None) -> bool:
+    """Whether runtime and weights are on this machine, in a folder or their package; loads neither.
+
+    Workers may run elsewhere: if one of them lacks the detector, its fit fails with the same code.
+    """
+    return detector_fault(folder) is None
+
+
+def no_detector() -> Problem:
+    """Say that there is no detector here, and how to change that."""
+    return problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
+
+
+def check_detector(asked: FitRequest, folder: Path | None) -> None:
+    """Refuse a request that needs the detector if there is none.
+
+    Raises
+    ------
+    RefusedError
+        ``detector-not-installed``, of the field that asks for it.
+    """
+    for number, view in enumerate(asked.views):
+        if view.are_points_completed and not detector_is_installed(folder):
+            with of_view(number):
+                raise refused(
+                    FieldProblem(
+                        field="points" if view.points == AUTO else "complete_points",
+                        code=DETECTOR_MISSING,
+                        reason=NOT_INSTALLED,
+                        remedy=REMEDY,
+                    )
+                )

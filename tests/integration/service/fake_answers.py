@@ -35,7 +35,7 @@ from service.estimates.questions import (
     estimate_tasks,
 )
 from service.numerics.tasks import ProblemError
-from service.submissions.detector import no_detector
+from service.submissions.submission import no_detector
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
 GLB = b"glTF" + bytes(range(256))

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from api_schemas.fit import FitRequest
 from api_schemas.points import AUTO, Point
 from fitter.vocabulary.choices import ViewKind
-from service.submissions.validation import field_problems
+from service.submissions.refusal import field_problems
 
 POINTS = {"nose": [1.0, 2.0]}
 FRONT: dict[str, Any] = {"view": "front", "points": POINTS}

@@ -13,7 +13,7 @@ from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
-from service.submissions.detector import detector_is_installed
+from service.submissions.submission import detector_is_installed
 
 
 def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):

@@ -16,8 +16,8 @@ from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE
 from service.numerics.tasks import Parts
 from service.process.data_folder import Disk
 from service.representation.formats import OBJ
-from service.submissions.detector import no_detector
 from service.submissions.refusal import RefusedError
+from service.submissions.submission import no_detector
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
 NOBODY = field_problem(

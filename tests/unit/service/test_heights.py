@@ -9,7 +9,7 @@ from api_schemas import fit, person, questions
 from api_schemas.service import BodyModels
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from service.api.openapi import complete_openapi
-from service.submissions.validation import field_problems
+from service.submissions.refusal import field_problems
 
 MODULES = (fit, questions)
 

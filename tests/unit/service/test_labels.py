@@ -6,8 +6,7 @@ import pytest
 
 from api_schemas.fit import FitRequest
 from api_schemas.labels import LONGEST
-from service.submissions.refusal import RefusedError
-from service.submissions.validation import parsed
+from service.submissions.refusal import RefusedError, parsed
 
 
 def labelled(label: object) -> FitRequest:

@@ -1,16 +1,16 @@
 import json
 import sys
+from collections.abc import Sequence
 
 import pytest
 
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point
-from fitter.vocabulary.points import POINT_NAMES
+from fitter.vocabulary.points import LIMB_POINT_NAMES, POINT_NAMES
 from service.jobs.inputs import SentPicture
-from service.submissions.refusal import RefusedError
+from service.submissions.refusal import RefusedError, _meant_field, parsed
 from service.submissions.submission import CheckedSubmission, check_submission
-from service.submissions.validation import parsed
 from tests.heif_files import EIGHT_BITS
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -158,6 +158,66 @@ def test_a_bad_option_is_refused_naming_field_and_code(changes, field, code):
     of_view = field.partition(".")[0] in ViewRequest.model_fields
     assert named.startswith(f"views.0.{field}" if of_view else field)
     assert named_code == code
+
+
+def spread(names: Sequence[str]) -> dict[str, list[float]]:
+    return {name: [100.0 + 3 * n, 50.0 + 20 * n] for n, name in enumerate(names)}
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        LIMB_POINT_NAMES,
+        LIMB_POINT_NAMES[:4],
+        LIMB_POINT_NAMES[:1] + LIMB_POINT_NAMES[3:7] + LIMB_POINT_NAMES[8:10],
+    ],
+)
+def test_enough_points_are_taken(names: Sequence[str]):
+    points = points_of(check(points=spread(names)))
+    assert {name: [at.x, at.y] for name, at in points.items()} == spread(names)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        LIMB_POINT_NAMES[2:6] + LIMB_POINT_NAMES[7:],
+        LIMB_POINT_NAMES[2:6] + LIMB_POINT_NAMES[8:],
+        POINT_NAMES[:5],
+    ],
+)
+def test_points_a_fit_cannot_start_from_are_refused(names: Sequence[str]):
+    assert refusal(points=spread(names)) == (422, "views.0.points", "too-few-points")
+
+
+def test_every_point_outside_the_picture_is_named():
+    beyond = {"nose": [700.0, 10.0], "left_ear": [10.0, 500.0]}
+    with pytest.raises(RefusedError) as caught:
+        check(points=spread(LIMB_POINT_NAMES) | beyond)
+    fields = {each.field for each in caught.value.problem.errors}
+    assert fields == {"views.0.points.nose", "views.0.points.left_ear"}
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("height", " height_m?"),
+        ("height_cm", " height_m?"),
+        ("hieght", " height_m?"),
+        ("wieght", " weight_kg?"),
+        ("view", " views?"),
+        ("colour", ""),
+    ],
+)
+def test_an_unknown_field_is_told_by_what_it_may_have_been_meant_for(name: str, meant: str):
+    said = f"Remove it, or correct its name:{meant}" if meant else "Remove it, or correct its name."
+    with pytest.raises(RefusedError) as caught:
+        check({"gender": "male", name: 1})
+    assert [each.remedy for each in caught.value.problem.errors] == [said]
+
+
+def test_a_slip_that_is_like_nothing_is_taken_for_nothing():
+    assert _meant_field("hieght", ["light", "format"]) is None
+    assert _meant_field("focal_length", ["focal_length_px"]) == "focal_length_px"
 
 
 def test_a_misspelt_point_is_one_fault_that_offers_every_name():
