@@ -1,5 +1,6 @@
 """How every command starts and ends: unusable settings are reported in one line."""
 
+import argparse
 import difflib
 import logging
 import os
@@ -16,6 +17,9 @@ from service.settings import PREFIX, SettingError, Settings
 
 LOG: Final = logging.getLogger(__name__)
 
+UNUSABLE: Final = 2
+"""Exit status where arguments, or what they name, cannot be used."""
+
 UNUSABLE_SETTINGS: Final = os.EX_CONFIG
 """Exit status 78: restarting is of no use, because settings or what they name cannot be used."""
 
@@ -24,36 +28,51 @@ UNAVAILABLE: Final = os.EX_UNAVAILABLE
 
 NOTHING: Final[Mapping[str, object]] = {}
 
+Work = Callable[[Settings], int | None]
 
-def read_settings(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
-    """Read the settings of a command, or end it; options in ``given`` take precedence."""
+
+def run_command(command: str, work: Work, options: Mapping[str, object] = NOTHING) -> int:
+    """Read the settings and run a command with them; ``options`` take precedence.
+
+    What proves unusable or unavailable is reported in a line. Returns the exit status.
+    """
+    settings = _read_settings(command, options)
+    _warn_of_unknown_names()
+    return _run(command, work, settings)
+
+
+def run_service(command: str, work: Work, options: Mapping[str, object] = NOTHING) -> int:
+    """Run a process that stays, which logs, as :func:`run_command` does."""
+    settings = _read_settings(command, options)
+    configure_logging(settings.log_level, settings.log_format)
+    _warn_of_unknown_names()
+    return _run(command, work, settings)
+
+
+def given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:
+    """Those of these options that stand on the command line."""
+    return {name: value for name in names if (value := getattr(parsed, name)) is not None}
+
+
+def _read_settings(command: str, options: Mapping[str, object]) -> Settings:
     try:
-        return Settings(**given)  # pyright: ignore[reportArgumentType]
+        return Settings(**options)  # pyright: ignore[reportArgumentType]
     except ValidationError as error:
-        for line in fault_lines(error, options=given):
+        for line in fault_lines(error, options=options):
             print(f"maquette {command}: {line}", file=sys.stderr)
         sys.exit(UNUSABLE_SETTINGS)
 
 
-def begin(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
-    """Read the settings of a long-running process, start logging, and warn of unknown names."""
-    settings = read_settings(command, given)
-    configure_logging(settings.log_level, settings.log_format)
-    warn_of_unknown_names()
-    return settings
-
-
-def warn_of_unknown_names() -> None:
+def _warn_of_unknown_names() -> None:
     """Say which variables look like settings but are not."""
     for name, meant in unknown_names(os.environ).items():
         hint = "it is ignored" if meant is None else f"did you mean {meant}?"
         LOG.warning("There is no setting %s; %s", name, hint)
 
 
-def run_told(command: str, run: Callable[[], int | None]) -> int:
-    """Run a command; anything that then proves unusable or unavailable is reported in one line."""
+def _run(command: str, work: Work, settings: Settings) -> int:
     try:
-        return run() or 0
+        return work(settings) or 0
     except Exception as error:
         told = _told(error)
         if told is None:

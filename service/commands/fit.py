@@ -1,14 +1,15 @@
 """``maquette fit``: fit pictures here and now, with the service's checks and pipeline."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import argparse
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Final, TypeVar
 
 from api_schemas.fit import FitRequest
-from api_schemas.problems import field_problem
+from api_schemas.problems import Problem, field_problem
+from api_schemas.results import Assumption, Finding, FitResult, FitWarning
 from fitter.errors import ModelFileError
-from service.commands.terminal import Stages, print_problem, print_result
+from fitter.vocabulary.outcomes import Severity
 from service.compute.files import with_result_document
 from service.compute.pipeline_port import (
     PipelineInput,
@@ -20,50 +21,69 @@ from service.jobs.inputs import SentPicture
 from service.jobs.records import Report
 from service.process.caches import settle_folders
 from service.representation.csv_tables import TABLE, measurements_csv
-from service.representation.formats import GLB_ENDING
 from service.settings import Settings
+from service.startup import UNUSABLE, run_command
 from service.submissions.refusal import RefusedError, parsed
 from service.submissions.submission import check_detector, check_submission
 
 PIPELINE: Final = "service.compute.pipeline"
-UNUSABLE_INPUT: Final = 2
-"""Exit status if the input is at fault, as for wrong arguments."""
+UNSHADED: Final = "SE"
+WITHHELD: Final = 'Measurements are withheld; with "force": true in the request they are given.'
+
+INPUT_FAULTS: Final = (ModelFileError, OSError, RefusedError, UnusableInputError)
 
 Made = TypeVar("Made")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FitArguments:
-    """The command line's arguments.
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """A request, its pictures, and where the files go."""
+    parser.add_argument(
+        "request", type=Path, metavar="REQUEST", help="JSON, as POST /v1/fits takes it"
+    )
+    parser.add_argument(
+        "pictures",
+        type=Path,
+        nargs="+",
+        metavar="PICTURE",
+        help="one to six, in the order of the request's views: JPEG, PNG, WebP or HEIC",
+    )
+    add_output(parser, Path("maquette-fit"))
 
-    ``request`` is a file with a :class:`~api_schemas.fit.FitRequest` as JSON; ``masks`` are none or
-    as many as pictures; ``formats`` are the endings of what meshes are written as beside GLB.
-    """
 
-    request: Path
-    pictures: Sequence[Path]
-    output: Path
-    masks: Sequence[Path] = ()
-    formats: Sequence[str] = ()
+def add_output(parser: argparse.ArgumentParser, default: Path) -> None:
+    """The folder that files are written to."""
+    parser.add_argument(
+        "--output", type=Path, default=default, metavar="DIR", help="default: %(default)s"
+    )
 
 
-def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
-    """Fit, write all files to the output folder, print the measurements; return the exit status."""
-    output = told(lambda: _fit(arguments, pipeline=pipeline))
-    if output is None:
-        return UNUSABLE_INPUT
-    _write_result(output, arguments.output, formats=arguments.formats)
+def run(parsed: argparse.Namespace) -> int:
+    """Fit what the command line names."""
+    return run_command("fit", lambda _: fit_locally(parsed.request, parsed.pictures, parsed.output))
+
+
+def fit_locally(
+    request: Path, pictures: Sequence[Path], output: Path, *, pipeline: str = PIPELINE
+) -> int:
+    """Fit, write all files to a folder, print the measurements; return the exit status."""
+    found = told(
+        lambda: fitted(
+            read_request(request),
+            [SentPicture(picture.read_bytes(), None) for picture in pictures],
+            pipeline=pipeline,
+        )
+    )
+    if found is None:
+        return UNUSABLE
+    files = with_result_document(found.result, found.files)
+    files[TABLE] = measurements_csv(found.result.measurements)
+    for name, content in files.items():
+        path = output / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    print_result(found.result)
+    print(f"{len(files)} files lie in {output}.")
     return 0
-
-
-def _fit(arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
-    asked = read_request(arguments.request)
-    masks = [mask.read_bytes() for mask in arguments.masks] or [None] * len(arguments.pictures)
-    pictures = [
-        SentPicture(picture.read_bytes(), mask)
-        for picture, mask in zip(arguments.pictures, masks, strict=True)
-    ]
-    return fitted(asked, pictures, pipeline=pipeline)
 
 
 def read_request(file: Path) -> FitRequest:
@@ -81,15 +101,26 @@ def told(work: Callable[[], Made]) -> Made | None:
     """Do the work; where the input is at fault, print that and return None."""
     try:
         return work()
-    except ModelFileError as error:
-        print(f"The body model cannot be used. {error}")
-    except OSError as error:
-        print(f"{error.strerror}: {error.filename}")
-    except RefusedError as error:
-        print_problem(error.problem)
-    except UnusableInputError as error:
-        print_problem(field_problem("unusable-input", error.error))
-    return None
+    except INPUT_FAULTS as error:
+        print("\n".join(fault_lines(error)))
+        return None
+
+
+def fault_lines(error: Exception) -> list[str]:
+    """Say what one of ``INPUT_FAULTS`` means and what to do."""
+    if isinstance(error, RefusedError):
+        return problem_lines(error.problem)
+    if isinstance(error, UnusableInputError):
+        return problem_lines(field_problem("unusable-input", error.error))
+    if isinstance(error, OSError):
+        return [f"{error.strerror}: {error.filename}"]
+    return [f"The body model cannot be used. {error}"]
+
+
+def problem_lines(problem: Problem) -> list[str]:
+    """Say what is wrong and what to do."""
+    told = [f"  {each.field}: {each.reason} {each.remedy}" for each in problem.errors]
+    return [problem.title, *(told or [f"  {problem.detail} {problem.remedy}"])]
 
 
 def fitted(
@@ -126,29 +157,70 @@ def _stage(report: Report) -> str:
     return report.stage if report.view is None else f"view {report.view}: {report.stage}"
 
 
-def _write_result(output: PipelineOutput, folder: Path, *, formats: Sequence[str]) -> None:
-    """Write all files, meshes in these formats too, and the table; and print the result."""
-    documents = with_result_document(output.result, output.files)
-    files = documents | _in_formats(documents, formats)
-    files[TABLE] = measurements_csv(output.result.measurements)
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-    print_result(output.result)
-    print(f"{len(files)} files lie in {folder}.")
+class Stages:
+    """Tells each stage of a fit as it begins."""
+
+    def __init__(self) -> None:
+        self._stage: str | None = None
+
+    def show(self, stage: str | None, share: float) -> None:
+        """Take a report: the stage, and the share of the whole fit done."""
+        if stage is not None and stage != self._stage:
+            self._stage = stage
+            print(f"{share:4.0%}  {stage.replace('_', ' ')}", flush=True)
 
 
-def _in_formats(files: Mapping[str, bytes], formats: Sequence[str]) -> dict[str, bytes]:
-    """Every mesh in every one of the formats, by file name."""
-    if not formats:
-        return {}
-    # Imported here: its libraries take a moment to load, and most fits do not need them.
-    from fitter.export.formats import converted
+def print_result(result: FitResult, *, truth: Mapping[str, float] | None = None) -> None:
+    """Print the measurements by SE and in the end, next to the truth if there is one; remarks."""
+    for line in _table(result, truth or {}) if result.measurements else (WITHHELD,):
+        print(line)
+    print(f"Verdict: {result.verdict} ({result.outcome_explanation})")
+    for number, view in enumerate(result.views):
+        shown = "" if view.view is None else f", {view.view}"
+        print(
+            f"View {number}{shown}: {view.outcome}, {view.verdict}. "
+            f"Silhouette overlap {view.silhouette_overlap:.3f}."
+        )
+        _print_findings(view.findings)
+        _print_remarks(view.assumptions, view.warnings)
+    if result.agreement is not None:
+        print(f"Agreement of the views {result.agreement:.2f}.")
+    print(f"{result.evaluations} evaluations, {sum(result.stage_seconds.values()):.1f} s.")
+    _print_remarks(result.assumptions, result.warnings)
 
-    return {
-        f"{name.removesuffix(GLB_ENDING)}.{ending}": converted(content, ending)
-        for name, content in files.items()
-        if name.endswith(GLB_ENDING)
-        for ending in formats
+
+def _table(result: FitResult, truth: Mapping[str, float]) -> Iterator[str]:
+    unshaded = {
+        each.name: each.value
+        for stage in result.stages
+        if stage.name == UNSHADED
+        for each in stage.measurements
     }
+    yield f"Measurements, {result.gender}, {result.height_m:.3f} m"
+    yield f"{'':34}{'SE':>8}{result.cues:>8}{'± (1 sd)':>10}" + (
+        "   truth   error" if truth else ""
+    )
+    for final in result.measurements:
+        name = f"{final.name.replace('_', ' ')}, {final.unit}"
+        spread = "" if final.standard_error is None else f"{final.standard_error:.1f}"
+        line = f"{name:34}{unshaded.get(final.name, final.value):8.1f}{final.value:8.1f}"
+        line += f"{'given' if final.given and spread == '0.0' else spread:>10}"
+        if final.name in truth:
+            line += f"{truth[final.name]:8.1f}{final.value - truth[final.name]:+8.1f}"
+        yield line
+
+
+def _print_findings(findings: Iterable[Finding]) -> None:
+    """What blocks is told by the outcome."""
+    for each in findings:
+        if each.severity is not Severity.BLOCKS:
+            print(f"{each.severity} ({each.code}): {each.reason} {each.remedy}")
+
+
+def _print_remarks(assumptions: Iterable[Assumption], warnings: Iterable[FitWarning]) -> None:
+    for assumption in assumptions:
+        value = assumption.value
+        shown = f"{value:.4g}" if isinstance(value, float) else value
+        print(f"Assumed {assumption.quantity} = {shown}: {assumption.reason}")
+    for warning in warnings:
+        print(f"Warning ({warning.code}): {warning.message}")

@@ -1,45 +1,74 @@
 """``maquette keys create | list | revoke``."""
 
+import argparse
 import sys
 from datetime import UTC, datetime
+from pathlib import Path
 
 from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing, Role
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
+from service.startup import UNUSABLE, given, run_command
 
 
-def create_key(settings: Settings, *, tenant: str, role: Role) -> int:
-    """Create a key and print it, alone and only this once."""
-    ring = _open(settings)
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """An action, and what it needs."""
+    actions = parser.add_subparsers(required=True, metavar="ACTION")
+    create = actions.add_parser("create", help="make a key and print it, once")
+    create.add_argument("tenant", help="whose jobs it opens; made by being named")
+    create.add_argument(
+        "--role",
+        choices=("fits", "metrics"),
+        default="fits",
+        help="metrics: opens /metrics and nothing else (default: %(default)s)",
+    )
+    listing = actions.add_parser("list", help="list all keys")
+    revoke = actions.add_parser("revoke", help="make a key useless")
+    revoke.add_argument("id", help="the part of the key between the underscores")
+    for action, act in ((create, _create), (listing, _list), (revoke, _revoke)):
+        action.add_argument("--data-dir", type=Path, help="that of the service")
+        action.set_defaults(act=act)
+
+
+def run(parsed: argparse.Namespace) -> int:
+    """Do what is asked with the keys of the service of these settings."""
+    return run_command(
+        "keys",
+        lambda settings: parsed.act(_opened(settings), parsed),
+        given(parsed, "data_dir"),
+    )
+
+
+def _create(ring: KeyRing, parsed: argparse.Namespace) -> int:
+    """Print the key alone and only this once."""
     try:
-        key = ring.create(tenant, role)
+        key = ring.create(parsed.tenant, Role(parsed.role))
     except ValueError as error:
         print(f"maquette keys: {error}.", file=sys.stderr)
-        return 2
+        return UNUSABLE
     print(key)
     print("Keep it: only its hash is stored, and it is not shown again.", file=sys.stderr)
     return 0
 
 
-def list_keys(settings: Settings) -> int:
+def _list(ring: KeyRing, _: argparse.Namespace) -> int:
     """Print every key's id, tenant, role, dates and last use."""
-    for key in _open(settings).all_keys():
+    for key in ring.all_keys():
         used = "no use known" if key.used_at is None else f"used {_minute(key.used_at)}"
         revoked = "" if key.revoked_at is None else f" revoked {_day(key.revoked_at)}"
         print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)} {used}{revoked}")
     return 0
 
 
-def revoke_key(settings: Settings, *, identity: str) -> int:
-    """Revoke a key by its id, the part between the underscores."""
-    if not _open(settings).revoke(identity):
-        print(f"maquette keys: no key {identity} is in use.", file=sys.stderr)
-        return 2
+def _revoke(ring: KeyRing, parsed: argparse.Namespace) -> int:
+    if not ring.revoke(parsed.id):
+        print(f"maquette keys: no key {parsed.id} is in use.", file=sys.stderr)
+        return UNUSABLE
     return 0
 
 
-def _open(settings: Settings) -> KeyRing:
+def _opened(settings: Settings) -> KeyRing:
     prepare_data_folder(settings)
     # It must be possible to revoke a key on a full disk too.
     prepare_database(settings.system_database_url)

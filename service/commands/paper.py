@@ -1,5 +1,6 @@
 """``maquette paper``: the paper's figures and its table, drawn from fits made here and now."""
 
+import argparse
 import io
 from pathlib import Path
 from typing import Final
@@ -12,13 +13,14 @@ from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.reproduction.drawing import Subject, reproduce, table_markdown
 from fitter.reproduction.panels import Figure
-from service.commands.fit import UNUSABLE_INPUT, read_request, told
+from service.commands.fit import add_output, read_request, told
 from service.compute import translate
 from service.compute.pipeline_port import UnusableInputError
 from service.demo_data.sample import load_sample, load_subject
 from service.jobs.inputs import SentPicture
 from service.process.caches import settle_folders
 from service.settings import Settings
+from service.startup import UNUSABLE, run_command
 from service.submissions.submission import check_submission
 
 _INTRODUCTION: Final = """# The paper, reproduced
@@ -34,6 +36,25 @@ from pose to pose, since it is a fit to each; here it is one body at rest.
 """
 
 
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """A painting, and where the figures go."""
+    parser.add_argument(
+        "--painting",
+        type=Path,
+        nargs=2,
+        metavar=("PICTURE", "REQUEST"),
+        help="of Fig. 10, with the JSON of its request",
+    )
+    add_output(parser, Path("maquette-paper"))
+
+
+def run(parsed: argparse.Namespace) -> int:
+    """Draw what the command line asks for."""
+    return run_command(
+        "paper", lambda settings: draw_paper(parsed.output, parsed.painting, settings)
+    )
+
+
 def draw_paper(output: Path, painting: tuple[Path, Path] | None, settings: Settings) -> int:
     """Draw all figures into a folder, with a page of them; return the exit status.
 
@@ -41,7 +62,7 @@ def draw_paper(output: Path, painting: tuple[Path, Path] | None, settings: Setti
     """
     page = told(lambda: _drawn(output, painting, settings))
     if page is None:
-        return UNUSABLE_INPUT
+        return UNUSABLE
     (output / "index.md").write_text(page)
     print(f"{output / 'index.md'} shows them all.")
     return 0

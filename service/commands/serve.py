@@ -1,20 +1,27 @@
 """``maquette serve``: the API in this process, a worker or estimators alone in another."""
 
+import argparse
 import errno
 import logging
 import os
 import signal
 import socket
 import sys
-from collections.abc import Callable, Mapping, Sequence
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Final
 
-from service.commands.prepare import run_preflight
+from service.compute.models_reading import check_detector, check_models
+from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
+from service.jobs.database import check_database, open_database, prepare_database
+from service.jobs.storage_identity import check_storage, take_storage
 from service.numerics.quick_lane import SOCKET, asking
+from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.supervisor import PYTHON, SupervisedProcess
 from service.process.work_folder import make_work_folder
 from service.settings import PREFIX, SettingError, Settings
-from service.startup import UNUSABLE_SETTINGS
+from service.startup import UNUSABLE, UNUSABLE_SETTINGS, given, run_service
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -22,6 +29,46 @@ WORKER_COMMAND: Final = (*PYTHON, "-m", "service.compute")
 ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
 STOP_MARGIN_S: Final = 5.0
 """How much longer than its drain time a worker gets before it is killed."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Some settings, and what is not one."""
+    parser.add_argument("--host", help="address to listen on (default: the setting, 127.0.0.1)")
+    parser.add_argument("--port", type=int, help="port, 0 for a free one (default: 8000)")
+    parser.add_argument("--data-dir", type=Path, help="folder of database, pictures and results")
+    parser.add_argument("--models-dir", type=Path, help="folder of female.npz and male.npz")
+    parser.add_argument("--no-worker", action="store_true", help="the workers run elsewhere")
+    parser.add_argument(
+        "--adopt-storage",
+        action="store_true",
+        help="let this folder or bucket take the place of the one that the database had",
+    )
+
+
+def run(parsed: argparse.Namespace) -> int:
+    """Serve as the command line says."""
+    options = given(parsed, "host", "port", "data_dir", "models_dir")
+    worker_command = None if parsed.no_worker else WORKER_COMMAND
+
+    def work(settings: Settings) -> int:
+        try:
+            listener = listen(settings)
+        except OSError as error:
+            print(
+                f"maquette serve: cannot listen on {settings.host}:{settings.port} "
+                f"({error.strerror}). Stop what listens there, or choose another port with --port.",
+                file=sys.stderr,
+            )
+            return UNUSABLE
+        return serve(
+            settings,
+            listener,
+            worker_command=worker_command,
+            adopt_storage=parsed.adopt_storage,
+            announce=lambda text: print(text, flush=True),
+        )
+
+    return run_service("serve", work, options)
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -59,6 +106,7 @@ def serve(
     *,
     worker_command: Sequence[str] | None = WORKER_COMMAND,
     estimators_command: Sequence[str] = ESTIMATORS_COMMAND,
+    adopt_storage: bool = False,
     announce: Callable[[str], None] = LOG.info,
 ) -> int:
     """Serve until interrupted; without a ``worker_command`` the workers run elsewhere.
@@ -71,58 +119,116 @@ def serve(
     beside: SupervisedProcess | None = None
     _on_signals(lambda: sys.exit(_status(beside)))
     # All faults of the settings come to light before anything with the same settings is started.
-    blobs = run_preflight(settings)
-    environment = _environment(settings)
+    blobs = preflight(settings, adopt_storage=adopt_storage)
     # Of this process alone: what children of the worker may write to is the worker's.
     address = str(make_work_folder() / SOCKET)
-    if worker_command is not None:
-        beside = _start_worker(settings, [*worker_command, address], environment)
-    else:
-        beside = _start_estimators(settings, [*estimators_command, address], environment)
-    from service.commands.api_process import assemble
+    beside = SupervisedProcess(
+        [*(worker_command or estimators_command), address],
+        name="worker" if worker_command else "estimators",
+        environment=_environment(settings),
+        stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
+        final_code=UNUSABLE_SETTINGS if worker_command else None,
+        # As if we had been told to stop.
+        on_final_end=lambda: os.kill(os.getpid(), signal.SIGTERM),
+    )
+    # Imported while the worker starts: it takes a second.
+    from service.api.app import create_app
+    from service.api.server import ApiServer
+    from service.jobs.engine import JobEngine
+    from service.jobs.keys import KeyRing
+    from service.jobs.notices import NoticeRunner, Sender
+    from service.numerics.header_lane import header_lane
+    from service.representation.jobs import represent
 
-    process = assemble(settings, blobs, asking(address))
+    url = settings.system_database_url
+    prepare_database(url)
+    take_storage(url, blobs, named=setting_of_storage(settings))
+    database = open_database(url)
+    engine = JobEngine(
+        database,
+        blobs,
+        max_queued=settings.max_queued,
+        max_queued_per_tenant=settings.tenant_queue_limit,
+        image_quota=settings.max_image_bytes_per_tenant,
+        retention_s=settings.retention_s,
+        sweep_interval_s=settings.sweep_interval_s,
+        heartbeat_s=settings.heartbeat_s,
+        dead_after_s=settings.dead_after_s,
+    )
+    sender = Sender(
+        blobs,
+        represent,
+        secret=settings.webhook_secret,
+        allowed_hosts=settings.allowed_webhook_hosts,
+    )
+    notices = NoticeRunner(database, sender.send)
+    draining = threading.Event()
+    app = create_app(
+        settings=settings,
+        engine=engine,
+        blobs=blobs,
+        disk=open_disk(settings),
+        ask=asking(address),
+        read_header=header_lane(settings),
+        keys=KeyRing(database),
+        draining=draining,
+    )
+    server = ApiServer(
+        app,
+        log_level=settings.log_level,
+        draining=draining,
+        stop_delay_s=settings.stop_delay_s,
+    )
     # The server handles signals while it runs, and raises them again when it is done: they must
     # not end this process before the worker is stopped.
-    _on_signals(process.ask_to_stop)
+    _on_signals(lambda: setattr(server, "should_exit", True))
+    # Whoever is told now and asks at once waits for the server, and is not turned away.
+    listener.listen()
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
     try:
-        process.run(listener)
+        engine.start()
+        notices.start()
+        server.run(sockets=[listener])
     finally:
         beside.stop()
-        process.close()
+        notices.stop()
+        engine.close()
     return _status(beside)
+
+
+def preflight(settings: Settings, *, adopt_storage: bool = False) -> BlobStore:
+    """Check data folder, models, detector, database and storage, and return the last.
+
+    Waits for a database or a storage that does not answer. With ``adopt_storage`` the storage takes
+    the place of the one that the database had.
+
+    Raises
+    ------
+    SettingError
+        If folder, models or detector cannot be used.
+    DatabaseUnusableError
+        If the database cannot be used.
+    StorageUnusableError
+        If the storage cannot be used, or is that of another database.
+    """
+    prepare_data_folder(settings)
+    check_models(settings)
+    check_detector(settings)
+    url, named = settings.system_database_url, setting_of_storage(settings)
+    check_database(url)
+    blobs = open_blob_store(settings)
+    if adopt_storage:
+        prepare_database(url)
+        take_storage(url, blobs, named=named, adopt=True)
+    else:
+        check_storage(url, blobs, named=named)
+    return blobs
 
 
 def _on_signals(act: Callable[[], object]) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda _number, _frame: act())
-
-
-def _start_worker(
-    settings: Settings, command: Sequence[str], environment: Mapping[str, str]
-) -> SupervisedProcess:
-    return SupervisedProcess(
-        command,
-        name="worker",
-        environment=environment,
-        stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
-        final_code=UNUSABLE_SETTINGS,
-        # As if we had been told to stop.
-        on_final_end=lambda: os.kill(os.getpid(), signal.SIGTERM),
-    )
-
-
-def _start_estimators(
-    settings: Settings, command: Sequence[str], environment: Mapping[str, str]
-) -> SupervisedProcess:
-    return SupervisedProcess(
-        command,
-        name="estimators",
-        environment=environment,
-        stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
-    )
 
 
 def _status(beside: SupervisedProcess | None) -> int:

@@ -1,30 +1,30 @@
 """``maquette validate``: how far fits are off on people who were measured with a tape.
 
-A table has a row for each fit of a person (:class:`Row`). Every column that is no field of a row is
-a measurement by its name, in centimetres or kilograms; ``NAME_2`` is a second reading.
+Measurements are columns of a table by their names; ``NAME_2`` is a second reading.
 """
 
+import argparse
 import csv
-import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Final
 
-from pydantic import BaseModel, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from api_schemas.fit import FitRequest
 from api_schemas.person import unknown_name_remedy
-from api_schemas.problems import field_problem, problem
+from api_schemas.picture import ViewRequest
+from api_schemas.problems import problem
 from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Gender, ViewKind
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
-from service.commands.fit import PIPELINE, UNUSABLE_INPUT, fitted, told
-from service.compute.pipeline_port import UnusableInputError
+from service.commands.fit import INPUT_FAULTS, PIPELINE, add_output, fault_lines, fitted, told
 from service.jobs.inputs import SentPicture
+from service.startup import UNUSABLE, run_command
 from service.submissions.refusal import RefusedError
 
 REPORT: Final = "validation.md"
@@ -34,11 +34,16 @@ NULLS: Final = ((STATURE,), (STATURE, WEIGHT))
 AGAIN: Final = "_2"
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-TAPES: Final = TypeAdapter(dict[str, Positive])
 
 
 class Row(BaseModel):
-    """A fit of a person to one picture, or to one from the front and one from the side."""
+    """A fit of a person to one picture, or to one from the front and one from the side.
+
+    All other columns are readings, in centimetres or kilograms.
+    """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Positive]
 
     person: str
     gender: Gender
@@ -48,24 +53,50 @@ class Row(BaseModel):
     focal_length_35mm: Positive | None = None
     clothing: Clothing | None = None
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Fit:
-    """What came of a row: measurements with standard errors by name, or why there are none.
-
-    ``tapes`` are the readings of its columns.
-    """
-
-    number: int
-    row: Row
-    tapes: Mapping[str, float]
-    found: Mapping[str, tuple[float, float | None]]
-    fault: str | None
+    @property
+    def tapes(self) -> dict[str, Positive]:
+        """Readings by their columns' names."""
+        return self.__pydantic_extra__
 
     def tape(self, name: str) -> float:
         """The mean of the readings of a measurement."""
         first = self.tapes[name]
         return 0.5 * (first + self.tapes.get(name + AGAIN, first))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Fit:
+    """Measurements of a row's pictures with standard errors by name, or why there are none."""
+
+    number: int
+    row: Row
+    found: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
+    fault: str | None = None
+
+    def pair(self, name: str) -> Pair:
+        """A measurement that both the pictures and the tape have."""
+        value, standard_error = self.found[name]
+        return Pair(
+            person=self.row.person,
+            found=value,
+            standard_error=standard_error,
+            tape=self.row.tapes[name],
+            again=self.row.tapes.get(name + AGAIN),
+        )
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """A table, and where the report goes."""
+    parser.add_argument("people", type=Path, metavar="TABLE", help="service/docs/validate.md")
+    add_output(parser, Path("maquette-validation"))
+
+
+def run(parsed: argparse.Namespace) -> int:
+    """Validate on the people of a table."""
+    return run_command(
+        "validate",
+        lambda settings: validate(parsed.people, parsed.output, models=settings.models_dir),
+    )
 
 
 def validate(
@@ -74,12 +105,11 @@ def validate(
     """Fit every row of a table, write and print the report; return the exit status."""
     rows = told(lambda: read_table(file))
     if rows is None:
-        return UNUSABLE_INPUT
+        return UNUSABLE
     fits: list[_Fit] = []
-    for number, (row, tapes) in rows.items():
+    for number, row in rows.items():
         print(f"Row {number}: {row.person}")
-        found, fault = _measured(row, file.parent, pipeline=pipeline)
-        fits.append(_Fit(number=number, row=row, tapes=tapes, found=found, fault=fault))
+        fits.append(_fit(number, row, file.parent, pipeline=pipeline))
     report = _report(fits, models)
     output.mkdir(parents=True, exist_ok=True)
     (output / REPORT).write_text(report)
@@ -87,7 +117,7 @@ def validate(
     return 0
 
 
-def read_table(file: Path) -> dict[int, tuple[Row, dict[str, float]]]:
+def read_table(file: Path) -> dict[int, Row]:
     """Read the rows of a table, by their numbers: the heading is the first.
 
     The first column or value that cannot be used is refused, with its row.
@@ -104,15 +134,15 @@ def read_table(file: Path) -> dict[int, tuple[Row, dict[str, float]]]:
         rows = {number: _row_of(number, each) for number, each in enumerate(reader, start=2)}
     if not rows:
         empty = "The file has no row."
-        raise _refused(empty, "Give one row for each fit of a person.", "person")
+        raise _refused(empty, "Give a row for each fit of a person.", "person")
     return rows
 
 
-def _row_of(number: int, cells: Mapping[str, str]) -> tuple[Row, dict[str, float]]:
-    said = {name: text.strip() for name, text in cells.items() if text and text.strip()}
-    tapes = {name: said.pop(name) for name in list(said) if name not in Row.model_fields}
+def _row_of(number: int, cells: Mapping[str, str]) -> Row:
     try:
-        return Row.model_validate(said), TAPES.validate_python(tapes)
+        return Row.model_validate(
+            {name: text.strip() for name, text in cells.items() if text and text.strip()}
+        )
     except ValidationError as error:
         fault = error.errors()[0]
         name = str(fault["loc"][0])
@@ -121,53 +151,28 @@ def _row_of(number: int, cells: Mapping[str, str]) -> tuple[Row, dict[str, float
         raise _refused(detail, remedy, name) from error
 
 
-def _refused(detail: str, remedy: str, field: str) -> RefusedError:
-    return RefusedError(problem("malformed-request", detail=detail, remedy=remedy, field=field))
+def _refused(detail: str, remedy: str, column: str) -> RefusedError:
+    return RefusedError(problem("malformed-request", detail=detail, remedy=remedy, field=column))
 
 
-def _measured(
-    row: Row, folder: Path, *, pipeline: str
-) -> tuple[dict[str, tuple[float, float | None]], str | None]:
-    """The measurements of a row's pictures with their standard errors, or why there are none."""
+def _fit(number: int, row: Row, folder: Path, *, pipeline: str) -> _Fit:
     views = {None: row.picture}
     if row.side_picture is not None:
         views = {ViewKind.FRONT: row.picture, ViewKind.SIDE: row.side_picture}
     shared = row.model_dump(include={"focal_length_35mm", "clothing"}, exclude_none=True)
-    asked = {
-        "gender": row.gender,
-        "height_m": round(row.height_cm / 100.0, 4),
-        "views": [{"view": kind} | shared for kind in views],
-    }
+    asked = FitRequest(
+        gender=row.gender,
+        height_m=round(row.height_cm / 100.0, 4),
+        views=tuple(ViewRequest(view=kind, **shared) for kind in views),
+    )
     try:
         pictures = [SentPicture((folder / path).read_bytes(), None) for path in views.values()]
-        result = fitted(
-            FitRequest.model_validate_json(json.dumps(asked)), pictures, pipeline=pipeline
-        ).result
-    except OSError as error:
-        return {}, f"{error.strerror}: {error.filename}"
-    except RefusedError as error:
-        return {}, error.problem.detail
-    except UnusableInputError as error:
-        return {}, field_problem("unusable-input", error.error).detail
+        result = fitted(asked, pictures, pipeline=pipeline).result
+    except INPUT_FAULTS as error:
+        return _Fit(number=number, row=row, fault=" ".join(" ".join(fault_lines(error)).split()))
     found = {each.name: (each.value, each.standard_error) for each in result.measurements}
-    return found, None if found else f"withheld: {result.outcome_explanation}"
-
-
-def _pairs(fits: Sequence[_Fit]) -> dict[str, list[Pair]]:
-    """What pictures and tapes say, by measurement."""
-    pairs: dict[str, list[Pair]] = {}
-    for fit in fits:
-        for name in fit.found.keys() & fit.tapes.keys():
-            value, standard_error = fit.found[name]
-            pair = Pair(
-                person=fit.row.person,
-                found=value,
-                standard_error=standard_error,
-                tape=fit.tapes[name],
-                again=fit.tapes.get(name + AGAIN),
-            )
-            pairs.setdefault(name, []).append(pair)
-    return pairs
+    fault = None if found else f"withheld: {result.outcome_explanation}"
+    return _Fit(number=number, row=row, found=found, fault=fault)
 
 
 def _null_errors(
@@ -176,12 +181,12 @@ def _null_errors(
     """Errors of the most probable body, without a picture, by measurement and person."""
     equipment = Equipment(models=models)
     errors: dict[str, list[list[float]]] = {}
-    for fit in {fit.row.person: fit for fit in fits if fit.found}.values():
-        true = {name: fit.tape(name) for name in fit.tapes if name in MEASUREMENT_UNITS}
-        true[STATURE] = fit.row.height_cm
+    for row in {fit.row.person: fit.row for fit in fits if fit.found}.values():
+        true = {name: row.tape(name) for name in row.tapes if name in MEASUREMENT_UNITS}
+        true[STATURE] = row.height_cm
         if not set(known) <= true.keys():
             continue
-        population = equipment.model(fit.row.gender).population
+        population = equipment.model(row.gender).population
         given = {name: KnownMeasurement(value=true[name]) for name in known}
         body = estimate_body(population, given).measurements
         for each in (each.measurement for each in body):
@@ -191,24 +196,24 @@ def _null_errors(
 
 
 def _report(fits: Sequence[_Fit], models: Path | None) -> str:
-    pairs = _pairs(fits)
     nulls = [_null_errors(fits, known, models) for known in NULLS]
-    measured = [fit for fit in fits if fit.found]
+    measured = sum(bool(fit.found) for fit in fits)
     people = len({fit.row.person for fit in fits})
     lines = [
         "# Validation",
         "",
-        f"{len(measured)} of {len(fits)} fits of {people} people gave measurements.",
+        f"{measured} of {len(fits)} fits of {people} people gave measurements.",
         "In brackets: 95 % intervals, bootstrapped over people.",
         "",
         f"| {_HEADING} |",
         "|---" * (_HEADING.count("|") + 1) + "|",
     ]
     for name, unit in MEASUREMENT_UNITS.items():
-        if name in pairs:
+        pairs = [fit.pair(name) for fit in fits if name in fit.found and name in fit.row.tapes]
+        if pairs:
             beside = [errors.get(name) for errors in nulls]
-            lines.append(_row(f"{name}, {unit}", error_figures(pairs[name]), beside))
-    lines += ["", *_EXPLAINED, ""]
+            lines.append(_row(f"{name}, {unit}", error_figures(pairs), beside))
+    lines += ["", "The columns are explained in service/docs/validate.md.", ""]
     faults = [f"- row {fit.number}, {fit.row.person}: {fit.fault}" for fit in fits if fit.fault]
     if faults:
         lines += ["Not measured:", "", *faults, ""]
@@ -219,13 +224,6 @@ _HEADING: Final = (
     "measurement | people | fits | mean absolute | bias | 95 % hold | half width | repeatability | "
     "tape | by height | by height and weight"
 )
-_EXPLAINED: Final = (
-    "- *half width*: the median of what the fits' own 95 % intervals allow.",
-    "- *repeatability*: the standard deviation of what several fits of one person say.",
-    "- *tape*: the technical error of measurement, from second readings.",
-    "- *by height*, *by height and weight*: the mean absolute error of the most probable body",
-    "  of these, without a picture. A picture that does not err less tells nothing.",
-)
 
 
 def _row(title: str, figures: ErrorFigures, nulls: Sequence[list[list[float]] | None]) -> str:
@@ -233,24 +231,21 @@ def _row(title: str, figures: ErrorFigures, nulls: Sequence[list[list[float]] | 
         title,
         str(figures.people),
         str(figures.pictures),
-        _with_interval(figures.mean_absolute),
-        _with_interval(figures.bias, sign="+"),
-        "-" if figures.held is None else _with_interval(figures.held, percent=True),
-        _or_dash(figures.half_width),
-        _or_dash(figures.repeatability),
-        _or_dash(figures.tape_error),
-        *("-" if each is None else _with_interval(mean_absolute(each)) for each in nulls),
+        _shown(figures.mean_absolute),
+        _shown(figures.bias, "+.1f"),
+        _shown(figures.held, ".0%"),
+        _shown(figures.half_width),
+        _shown(figures.repeatability),
+        _shown(figures.tape_error),
+        *(_shown(each and mean_absolute(each)) for each in nulls),
     ]
     return f"| {' | '.join(cells)} |"
 
 
-def _with_interval(estimate: Estimate, *, sign: str = "", percent: bool = False) -> str:
-    form, scale, unit = (".0f", 100.0, " %") if percent else (f"{sign}.1f", 1.0, "")
-    value = f"{scale * estimate.value:{form}}{unit}"
-    if estimate.low is None or estimate.high is None:
-        return value
-    return f"{value} ({scale * estimate.low:{form}} to {scale * estimate.high:{form}})"
-
-
-def _or_dash(value: float | None) -> str:
-    return "-" if value is None else f"{value:.1f}"
+def _shown(value: Estimate | float | None, form: str = ".1f") -> str:
+    if value is None:
+        return "-"
+    if not isinstance(value, Estimate):
+        return f"{value:{form}}"
+    interval = "" if value.low is None else f" ({value.low:{form}} to {value.high:{form}})"
+    return f"{value.value:{form}}{interval}"

@@ -6,8 +6,7 @@ It answers the API's questions at that address, and ends with it.
 import sys
 
 from service.compute.main import run_worker
-from service.startup import begin, run_told
+from service.startup import run_service
 
 if __name__ == "__main__":
-    settings = begin("worker")
-    sys.exit(run_told("worker", lambda: run_worker(settings, questions_at=sys.argv[1])))
+    sys.exit(run_service("worker", lambda settings: run_worker(settings, questions_at=sys.argv[1])))

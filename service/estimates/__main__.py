@@ -6,8 +6,11 @@ They answer its questions at that address, and end with it.
 import sys
 
 from service.compute.main import run_estimators
-from service.startup import begin, run_told
+from service.startup import run_service
 
 if __name__ == "__main__":
-    settings = begin("estimator")
-    sys.exit(run_told("estimator", lambda: run_estimators(settings, questions_at=sys.argv[1])))
+    sys.exit(
+        run_service(
+            "estimator", lambda settings: run_estimators(settings, questions_at=sys.argv[1])
+        )
+    )

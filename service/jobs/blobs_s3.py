@@ -88,7 +88,16 @@ class S3BlobStore:
             _told(self._bucket),
             contextlib.suppress(self._client.exceptions.BucketAlreadyOwnedByYou),
         ):
-            self._client.create_bucket(Bucket=self._bucket, **options)
+            # Asked first: a key need not be allowed to make what is there.
+            if not self._bucket_exists():
+                self._client.create_bucket(Bucket=self._bucket, **options)
+
+    def _bucket_exists(self) -> bool:
+        try:
+            self._client.list_objects_v2(Bucket=self._bucket, MaxKeys=1)
+        except self._client.exceptions.NoSuchBucket:
+            return False
+        return True
 
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope."""

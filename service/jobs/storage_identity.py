@@ -37,13 +37,6 @@ SCOPE: Final = "storage-of"
 retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
 
 
-@retry_while_storage_is_away
-def make_storage(blobs: BlobStore, *, named: str) -> None:
-    """Create the folder or bucket unless it exists; waits and raises as :func:`check_storage`."""
-    with _refusals(named):
-        blobs.prepare()
-
-
 @retry_while_database_is_away
 @retry_while_storage_is_away
 def check_storage(url: str, blobs: BlobStore, *, named: str) -> None:
@@ -71,13 +64,16 @@ def check_storage(url: str, blobs: BlobStore, *, named: str) -> None:
 def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False) -> None:
     """Take the storage for the database's from now on, unless it has one: then check it.
 
-    A database of a version before has none, so the first process that starts decides. With
-    ``adopt`` the storage takes the place of the one that the database had. Waits and raises as
-    :func:`check_storage` does; the tables must be there.
+    A new database has none, so the first process that starts decides; its folder or bucket is made
+    unless it is there. With ``adopt`` the storage takes the place of the one that the database had.
+    Waits and raises as :func:`check_storage` does; the tables must be there.
     """
     with opened(url) as engine:
         with engine.connect() as connection:
             number = read_fact(connection, STORAGE_FACT)
+        if number is None or adopt:
+            with _refusals(named):
+                blobs.prepare()
         if number is None:
             # Before it is known, so that no database names a storage that knows nothing of it.
             offered = uuid.uuid4().hex
@@ -103,7 +99,7 @@ def _check(blobs: BlobStore, number: str, named: str) -> None:
                 f"{named}: this is not the storage of the database, which has its pictures and "
                 "results elsewhere; give all API processes and workers of a database the same "
                 "storage, or, if the former one is lost or was moved here in part, run "
-                "maquette prepare --adopt-storage"
+                "maquette serve --adopt-storage once"
             )
             raise StorageUnusableError(message) from error
 

@@ -2,8 +2,6 @@
 
 import csv
 import io
-import subprocess
-import sys
 from pathlib import Path
 
 import httpx
@@ -108,23 +106,3 @@ def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client,
     result = job["result"]
     away = np.linalg.norm(exact - skinned, axis=1).max()
     assert 1e3 * away <= result["skin_largest_error_mm"] + 0.1
-
-
-def test_the_command_line_writes_the_formats_it_is_asked_for(tmp_path: Path):
-    subprocess.run(
-        [
-            *(sys.executable, "-m", "service.cli", "fit"),
-            *(str(SAMPLE / "request.json"), str(SAMPLE / "sample.jpg")),
-            *("--output", str(tmp_path), "--format", "obj", "--format", "ply"),
-        ],
-        cwd=REPOSITORY,
-        check=True,
-        capture_output=True,
-    )
-    written = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*")}
-    assert {"views/0/body_posed.obj", "body_canonical.ply", "measurements.csv"} <= written
-    assert not any(name.endswith(".stl") for name in written)
-    vertices, _ = mesh_of((tmp_path / "body_canonical.glb").read_bytes())
-    assert same(
-        trimesh.load_mesh(tmp_path / "body_canonical.obj", process=False).vertices, vertices
-    )

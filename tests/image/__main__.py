@@ -83,10 +83,6 @@ def run_on_two_hosts(image: Image) -> None:
             **CREDENTIALS,
             "MAQUETTE_WORKER_PROCESSES": "1",
         }
-        with running(
-            image, "maquette", "prepare", host=FRONT, name="prepare", settings=settings
-        ) as prepare:
-            expect("maquette prepare makes tables and bucket", prepare.process.wait() == 0)
         api = start(stack, image, settings, FRONT, "api", "serve", "--no-worker")
         stack.enter_context(entered(BACK))
         eventually("the API answers the other host", lambda: answers(URL))

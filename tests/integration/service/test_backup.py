@@ -100,7 +100,6 @@ def test_a_dump_and_a_copied_bucket_bring_back_keys_fits_and_waiting_jobs(
         tmp_path / "new", after, KEYS | storage.settings | {"blob_url": f"s3://{bucket}/blobs"}
     )
     gate = tmp_path / "gate"
-    subprocess.run([*MAQUETTE, "prepare"], env=lost.environment(), check=True)
     key = {"Authorization": f"Bearer {new_key(lost)}"}
     with running_service(lost) as service:
         service.client.headers.update(key)

@@ -12,7 +12,7 @@ import pytest
 from api_schemas.results import FitResult
 from service.cli import main
 from service.commands.demo import run_demo
-from service.commands.fit import FitArguments, fit_locally
+from service.commands.fit import PIPELINE, fit_locally
 from service.demo_data.sample import Sample, load_sample
 from service.version import VERSION
 from tests.integration.service.fake_pipeline import scripted_image
@@ -25,20 +25,11 @@ FAKE_WAIST = 80.0 + len(POINTS)
 """What the pretended pipeline measures, centimetres."""
 
 
-def arguments(
-    folder: Path,
-    request: object,
-    *images: bytes,
-    masks: Sequence[bytes] = (),
-) -> FitArguments:
+def fit(folder: Path, request: object, *images: bytes, pipeline: str = FAKE) -> int:
     file = folder / "request.json"
     file.write_text(request if isinstance(request, str) else json.dumps(request))
-    return FitArguments(
-        request=file,
-        pictures=_written(folder, "picture", images or [scripted_image()]),
-        masks=_written(folder, "mask", masks),
-        output=folder / "out",
-    )
+    pictures = _written(folder, "picture", images or [scripted_image()])
+    return fit_locally(file, pictures, folder / "out", pipeline=pipeline)
 
 
 def _written(folder: Path, name: str, contents: Sequence[bytes]) -> list[Path]:
@@ -49,7 +40,7 @@ def _written(folder: Path, name: str, contents: Sequence[bytes]) -> list[Path]:
 
 
 def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tmp_path, capsys):
-    assert fit_locally(arguments(tmp_path, REQUEST), pipeline=FAKE) == 0
+    assert fit(tmp_path, REQUEST) == 0
     result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
     for artifact in result.files:
         assert (tmp_path / "out" / artifact.name).stat().st_size == artifact.size
@@ -60,23 +51,14 @@ def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tm
 
 
 def test_a_fit_without_a_service_writes_its_measurements_as_a_table(tmp_path):
-    assert fit_locally(arguments(tmp_path, REQUEST), pipeline=FAKE) == 0
+    assert fit(tmp_path, REQUEST) == 0
     with (tmp_path / "out" / "measurements.csv").open(newline="") as table:
         (row,) = csv.DictReader(table)
     assert (row["name"], float(row["value"]), row["unit"]) == ("waist_girth", FAKE_WAIST, "cm")
 
 
-def test_a_format_nobody_writes_is_named_with_those_there_are(capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["fit", "request.json", "picture.png", "--format", "fbx"])
-    assert ended.value.code == 2
-    said = capsys.readouterr().err
-    assert all(ending in said for ending in ("fbx", "obj", "ply", "stl"))
-
-
 def test_two_pictures_are_fitted_together(tmp_path, capsys):
-    given = arguments(tmp_path, FRONT_AND_SIDE, scripted_image(), scripted_image({"n": 1}))
-    assert fit_locally(given, pipeline=FAKE) == 0
+    assert fit(tmp_path, FRONT_AND_SIDE, scripted_image(), scripted_image({"n": 1})) == 0
     assert (tmp_path / "out" / "views" / "1" / "overlay.png").exists()
     assert "View 1, side" in capsys.readouterr().out
 
@@ -86,15 +68,14 @@ def test_a_folder_of_damaged_models_is_told(tmp_path, capsys, monkeypatch):
     for name in ("female.npz", "male.npz"):
         (tmp_path / name).touch()
     monkeypatch.setenv("MAQUETTE_MODELS_DIR", str(tmp_path))
-    assert fit_locally(arguments(tmp_path, sample.request.decode(), sample.image)) == 2
+    assert fit(tmp_path, sample.request.decode(), sample.image, pipeline=PIPELINE) == 2
     printed = capsys.readouterr().out
     assert "The body model cannot be used." in printed
     assert "male.npz" in printed
 
 
 def test_the_least_request_has_all_points_proposed(tmp_path):
-    given = arguments(tmp_path, {"gender": "female", "height_m": 1.7})
-    assert fit_locally(given, pipeline=FAKE) == 0
+    assert fit(tmp_path, {"gender": "female", "height_m": 1.7}) == 0
     result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
     assert (result.gender, result.height_m) == ("female", 1.7)
 
@@ -112,30 +93,17 @@ def test_the_least_request_has_all_points_proposed(tmp_path):
     ],
 )
 def test_unusable_input_is_told_and_nothing_is_written(tmp_path, capsys, request_text, image, told):
-    given = arguments(tmp_path, request_text, *([] if image is None else [image]))
-    assert fit_locally(given, pipeline=FAKE) == 2
+    assert fit(tmp_path, request_text, *([] if image is None else [image])) == 2
     assert told in capsys.readouterr().out
     assert not (tmp_path / "out").exists()
 
 
-def test_a_mask_of_another_size_is_told(tmp_path, capsys):
-    given = arguments(tmp_path, REQUEST, masks=[scripted_image(width=3)])
-    assert fit_locally(given, pipeline=FAKE) == 2
-    assert "views.0.mask" in capsys.readouterr().out
-
-
-def test_masks_are_none_or_as_many_as_pictures(capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["fit", "r.json", "a.png", "b.png", "--mask", "m.png"])
-    assert ended.value.code == 2
-    assert "--mask" in capsys.readouterr().err
-
-
 def test_a_missing_file_is_named(tmp_path, capsys):
-    given = arguments(tmp_path, REQUEST)
-    given.pictures[0].unlink()
-    assert fit_locally(given, pipeline=FAKE) == 2
-    assert "picture_0.png" in capsys.readouterr().out.replace("\n", "")
+    (tmp_path / "request.json").write_text(json.dumps(REQUEST))
+    with pytest.raises(SystemExit) as ended:
+        main(["fit", str(tmp_path / "request.json"), str(tmp_path / "picture.png")])
+    assert ended.value.code == 2
+    assert "picture.png" in capsys.readouterr().out.replace("\n", "")
 
 
 def sample(script: dict[str, object] | None = None) -> Sample:
@@ -156,7 +124,7 @@ def _quick(monkeypatch):
 def test_the_demo_shows_bars_prints_the_truth_beside_and_keeps_the_files(tmp_path, capsys):
     output = tmp_path / "demo-output"
     script = {"seconds": 0.3}
-    assert run_demo(output, sample=sample(script), serve_command=FAKE_SERVE) == 0
+    assert run_demo(output, sample(script), serve_command=FAKE_SERVE) == 0
     printed = capsys.readouterr().out
     assert "silhouette and edges" in printed
     assert "+2.0" in printed
@@ -167,7 +135,7 @@ def test_the_demo_shows_bars_prints_the_truth_beside_and_keeps_the_files(tmp_pat
 
 @pytest.mark.usefixtures("_quick")
 def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
-    assert run_demo(tmp_path, sample=sample({"unusable": True}), serve_command=FAKE_SERVE) == 1
+    assert run_demo(tmp_path, sample({"unusable": True}), serve_command=FAKE_SERVE) == 1
     assert "The picture ends too early." in capsys.readouterr().out.replace("\n", " ")
 
 

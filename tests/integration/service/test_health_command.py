@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from service.cli import main
-from service.commands import api_health, worker_health
+from service.commands import health as command
 from service.settings import Settings
 from tests.integration.service.harness import (
     PATIENCE_S,
@@ -28,8 +28,8 @@ HEALTHY, UNHEALTHY = 0, 1
 
 @pytest.fixture(autouse=True)
 def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(api_health, "TIMEOUT_S", PATIENCE_S)
-    monkeypatch.setattr(worker_health, "LATE_S", PATIENCE_S)
+    monkeypatch.setattr(command, "TIMEOUT_S", PATIENCE_S)
+    monkeypatch.setattr(command, "LATE_S", PATIENCE_S)
 
 
 def health(machine: Machine, monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
@@ -66,19 +66,17 @@ def test_a_beat_that_is_late_is_waited_for_and_one_that_does_not_come_is_not(
     settings = Settings(data_dir=embedded.data_dir, **QUICK)
     found: list[int] = []
     with running_service(embedded, api_only=True), running_worker(embedded) as worker:
-        eventually(lambda: worker_health.worker_health(settings) == HEALTHY, what="it has begun")
+        eventually(lambda: command.worker_health(settings) == HEALTHY, what="it has begun")
         stop(worker)
-        asking = threading.Thread(
-            target=lambda: found.append(worker_health.worker_health(settings))
-        )
+        asking = threading.Thread(target=lambda: found.append(command.worker_health(settings)))
         asking.start()
         time.sleep(5.0 * settings.heartbeat_s)
         worker.send_signal(signal.SIGCONT)
         asking.join()
         assert found == [HEALTHY]
         stop(worker)
-        monkeypatch.setattr(worker_health, "LATE_S", 0.0)
-        assert worker_health.worker_health(settings) == UNHEALTHY
+        monkeypatch.setattr(command, "LATE_S", 0.0)
+        assert command.worker_health(settings) == UNHEALTHY
         assert "no worker" in capsys.readouterr().err
 
 

@@ -54,15 +54,6 @@ def worker_on_another_host(machine: Machine, name: str) -> Iterator[subprocess.P
         process.stdin.close()
 
 
-def prepare(machine: Machine) -> None:
-    subprocess.run(
-        [sys.executable, "-m", "service.cli", "prepare"],
-        cwd=REPOSITORY,
-        env=machine.environment(),
-        check=True,
-    )
-
-
 def same_host(pid: int, other: int) -> bool:
     """Say whether a process runs and sees the same host name as another."""
     try:
@@ -95,7 +86,6 @@ def test_a_host_takes_over_from_one_that_is_gone(
         Machine(tmp_path / name, database_url, shared) for name in ("front", "left", "right")
     )
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    prepare(front)
     with contextlib.ExitStack() as stack:
         service = stack.enter_context(running_service(front, api_only=True))
         doomed = stack.enter_context(worker_on_another_host(left, "left"))

@@ -2,13 +2,23 @@
 
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
+from botocore.client import BaseClient
 
-from service.cli import main
-from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, open_blob_store
+from service.jobs.blobs import (
+    BlobMissingError,
+    BlobStore,
+    BlobsUnavailableError,
+    open_blob_store,
+    setting_of_storage,
+)
+from service.jobs.database import prepare_database
+from service.jobs.storage_identity import take_storage
 from service.settings import Settings
+from service.startup import run_command
 from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
 
 
@@ -104,36 +114,48 @@ def test_a_server_that_is_not_there_is_said_so(monkeypatch):
         open_blob_store(Settings(blob_url="s3://bucket")).check_writable()
 
 
-@pytest.mark.usefixtures("_credentials")
-def test_preparing_makes_tables_and_bucket_and_may_be_repeated(storage, monkeypatch, tmp_path):
-    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
-    monkeypatch.setenv("MAQUETTE_BLOB_URL", storage.blob_url)
+@pytest.fixture
+def settings(storage, _credentials, tmp_path) -> Settings:
+    """Those of a database with tables, and a storage that nobody has made."""
+    settings = Settings(data_dir=tmp_path, blob_url=storage.blob_url)
+    prepare_database(settings.system_database_url)
+    return settings
+
+
+def take(settings: Settings) -> None:
+    blobs = open_blob_store(settings)
+    take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
+
+
+def test_the_first_to_take_a_storage_makes_the_bucket(settings, storage):
     for _ in range(2):
-        with pytest.raises(SystemExit) as ended:
-            main(["prepare"])
-        assert ended.value.code == 0
+        take(settings)
     place = storage.client.get_bucket_location(Bucket=storage.bucket)
     assert place["LocationConstraint"] == REGION
-    assert (tmp_path / "maquette.sqlite").is_file()
 
 
-@pytest.mark.usefixtures("_credentials")
-def test_a_bucket_that_cannot_be_made_is_told_in_a_line(monkeypatch, tmp_path, capsys):
+def test_a_bucket_that_is_there_is_not_made_again(settings, blobs, monkeypatch):
+    monkeypatch.setattr(
+        "botocore.client.BaseClient._make_api_call",
+        without("CreateBucket", BaseClient._make_api_call),
+    )
+    take(settings)
+
+
+def without(forbidden: str, call: Callable[..., Any]) -> Callable[..., Any]:
+    """Calls of a client that may do one thing less."""
+
+    def checked(client: BaseClient, operation: str, arguments: dict[str, Any]) -> Any:
+        assert operation != forbidden
+        return call(client, operation, arguments)
+
+    return checked
+
+
+def test_a_bucket_that_cannot_be_made_is_told_in_a_line(settings, monkeypatch, capsys):
     monkeypatch.setattr("service.jobs.blobs_s3.ATTEMPTS", 1)
     monkeypatch.setattr("service.process.retrying.RETRY_FOR_S", 0.0)
-    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
-    monkeypatch.setenv("MAQUETTE_BLOB_URL", "s3://bucket")
     monkeypatch.setenv("AWS_ENDPOINT_URL_S3", "http://127.0.0.1:9")
-    with pytest.raises(SystemExit) as ended:
-        main(["prepare"])
-    assert ended.value.code == os.EX_UNAVAILABLE
+    assert run_command("serve", lambda _: take(settings)) == os.EX_UNAVAILABLE
     (line,) = capsys.readouterr().err.splitlines()
     assert "the storage is not available" in line
-
-
-def test_preparing_without_a_bucket_makes_the_folder(monkeypatch, tmp_path):
-    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path / "data"))
-    with pytest.raises(SystemExit) as ended:
-        main(["prepare"])
-    assert ended.value.code == 0
-    assert (tmp_path / "data" / "blobs").is_dir()

@@ -29,7 +29,6 @@ SECRET = "opensesame"
 SERVE = ("-m", "service.cli", "serve")
 WORKER = ("-m", "service.cli", "worker")
 CHILD_WORKER = ("-m", "service.compute", "ADDRESS")
-PREPARE = ("-m", "service.cli", "prepare")
 KEYS = ("-m", "service.cli", "keys", "list")
 HEALTH = ("-m", "service.cli", "health")
 ESTIMATORS = ("-m", "service.estimates", "ADDRESS")
@@ -98,16 +97,14 @@ def list_keys(
     return list_keys
 
 
-@pytest.mark.parametrize(
-    "command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATORS]
-)
+@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, KEYS, HEALTH, ESTIMATORS])
 def test_no_command_begins_with_an_endless_time(command: Sequence[str], tmp_path: Path):
     done = run(command, tmp_path / "data", retention_hours="inf")
     assert_refused(done, naming="MAQUETTE_RETENTION_HOURS=inf: it must be a finite number")
     assert not (tmp_path / "data").exists()
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS])
+@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, KEYS])
 def test_a_data_folder_below_a_file_is_refused(command: Sequence[str], tmp_path: Path):
     (tmp_path / "file").touch()
     folder = tmp_path / "file" / "data"
@@ -119,7 +116,7 @@ def test_a_file_that_is_no_database_is_refused(tmp_path: Path):
     assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, PREPARE, KEYS])
+@pytest.mark.parametrize("command", [SERVE, WORKER, KEYS])
 def test_a_database_that_does_not_exist_is_refused(command: Sequence[str], tmp_path: Path):
     url = f"postgres://postgres:{SECRET}@127.0.0.1:5432/maquette_nowhere"
     line = assert_refused(
@@ -225,12 +222,13 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
     folder.mkdir(mode=0o755)
     becoming_nobody = (
         "import os, pwd, sys\n"
-        "from service.commands.prepare import run_preflight\n"
-        "from service.startup import begin, run_told\n"
+        "from service.commands.serve import preflight\n"
+        "from service.startup import run_service\n"
         "import service.jobs.records, sqlalchemy.exc\n"
-        "settings = begin('serve')\n"
-        "os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"
-        "sys.exit(run_told('serve', lambda: run_preflight(settings)))\n"
+        "def work(settings):\n"
+        "    os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"
+        "    preflight(settings)\n"
+        "sys.exit(run_service('serve', work))\n"
     )
     line = assert_refused(run(("-c", becoming_nobody), folder), naming=f"{folder}")
     assert "MAQUETTE_DATA_DIR=" in line

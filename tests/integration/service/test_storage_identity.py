@@ -8,19 +8,15 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
+from service.commands.serve import preflight
 from service.jobs.blobs import StorageUnusableError
 from service.jobs.blobs_local import LocalBlobStore
 from service.jobs.database import open_database, prepare_database
 from service.jobs.storage_identity import STORAGE_FACT, check_storage, take_storage
 from service.jobs.tables import FACTS
+from service.settings import Settings
 from tests.integration.service.harness import Machine, running_service
-from tests.integration.service.test_refused_start import (
-    PREPARE,
-    SERVE,
-    WORKER,
-    assert_refused,
-    run,
-)
+from tests.integration.service.test_refused_start import SERVE, WORKER, assert_refused, run
 from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
@@ -56,7 +52,7 @@ def test_the_first_to_start_decides_and_whoever_has_another_storage_is_refused(
         with pytest.raises(StorageUnusableError, match=NAMED) as refused:
             start(url, theirs)
         assert "\n" not in str(refused.value)
-        assert "maquette prepare --adopt-storage" in str(refused.value)
+        assert "maquette serve --adopt-storage" in str(refused.value)
     assert not theirs.exists()
     take(url, ours)
 
@@ -102,7 +98,7 @@ def test_of_several_that_start_at_once_with_storages_of_their_own_one_is_taken(
         assert sorted(starting.map(start, range(AT_ONCE))) == [False] * (AT_ONCE - 1) + [True]
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, PREPARE])
+@pytest.mark.parametrize("command", [SERVE, WORKER])
 def test_no_command_starts_with_another_folder(command: tuple[str, ...], tmp_path: Path):
     with fresh_database() as database_url:
         with running_service(Machine(tmp_path / "ours", database_url), api_only=True):
@@ -117,8 +113,7 @@ def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):
         pass
     shutil.rmtree(tmp_path / "blobs")
     assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
-    done = run((*PREPARE, "--adopt-storage"), tmp_path)
-    assert done.returncode == 0, done.stderr
+    preflight(Settings(data_dir=tmp_path), adopt_storage=True)
     with running_service(Machine(tmp_path), api_only=True):
         pass
 
@@ -126,11 +121,11 @@ def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):
 def test_another_bucket_or_prefix_is_refused(storage: ObjectStorage, tmp_path: Path):
     ours = storage.settings
     theirs = ours | {"blob_url": f"{ours['blob_url']}-of-others"}
-    assert run(PREPARE, tmp_path, **ours).returncode == 0
-    done = run(SERVE, tmp_path, **theirs)
-    assert_refused(done, naming=f"MAQUETTE_BLOB_URL={theirs['blob_url']}:")
-    assert run(PREPARE, tmp_path, **ours).returncode == 0
-    assert_refused(run(PREPARE, tmp_path, **theirs), naming="MAQUETTE_BLOB_URL=")
+    with running_service(Machine(tmp_path, settings=ours), api_only=True):
+        pass
+    for command in (SERVE, WORKER):
+        done = run(command, tmp_path, **theirs)
+        assert_refused(done, naming=f"MAQUETTE_BLOB_URL={theirs['blob_url']}:")
 
 
 def test_what_the_storage_refuses_for_good_is_not_asked_for_again(
@@ -138,5 +133,5 @@ def test_what_the_storage_refuses_for_good_is_not_asked_for_again(
 ):
     """Amazon's servers take no new bucket of a name so long, though some old ones have one."""
     wrong = storage.settings | {"blob_url": f"s3://{'a' * 70}"}
-    line = assert_refused(run(PREPARE, tmp_path, **wrong), naming="MAQUETTE_BLOB_URL=s3://aaa")
+    line = assert_refused(run(WORKER, tmp_path, **wrong), naming="MAQUETTE_BLOB_URL=s3://aaa")
     assert "InvalidBucketName" in line

@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.commands import worker_health
+from service.commands import health
 from service.settings import Settings
 from tests.integration.service.fake_preload import FAULT
 from tests.integration.service.harness import (
@@ -36,7 +36,7 @@ def test_it_says_so_everywhere_and_begins_jobs_once_it_is_able(
         assert "its log says what is wrong" in ready.json()["detail"]
         eventually(
             lambda: (
-                worker_health.worker_health(settings) == UNHEALTHY
+                health.worker_health(settings) == UNHEALTHY
                 and "can start processes" in capsys.readouterr().err
             ),
             what="health --worker says so",
@@ -45,11 +45,11 @@ def test_it_says_so_everywhere_and_begins_jobs_once_it_is_able(
         assert service.state(waiting) == "queued"
         fault.unlink()
         eventually(lambda: gauge(service, "maquette_workers_able") == 1.0, what="it is able")
-        assert worker_health.worker_health(settings) == HEALTHY
+        assert health.worker_health(settings) == HEALTHY
         eventually(lambda: service.client.get("/healthz/ready").status_code == 200, what="ready")
         assert service.ended(waiting)["state"] == "succeeded"
 
 
 @pytest.fixture(autouse=True)
 def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(worker_health, "LATE_S", 60.0)
+    monkeypatch.setattr(health, "LATE_S", 60.0)

@@ -12,13 +12,13 @@ import pytest
 import yaml
 from packaging.requirements import Requirement
 
-from service.cli import _parser
+from service.cli import parse
 from service.setting_types import DETECTOR_FILES
 from service.settings import PREFIX, Settings
 
 REPOSITORY = Path(__file__).parents[3]
 DOCKER = REPOSITORY / "docker"
-OURS = ("api", "worker", "prepare")
+OURS = ("api", "worker")
 RUNNING = ("api", "worker", "database", "storage")
 SECRETS = {
     "POSTGRES_PASSWORD": "a-password",
@@ -60,7 +60,7 @@ SERVICES = compose()["services"]
 def accept(command: list[str]) -> None:
     """Parse a command as `maquette` would, which ends with status 2 if there is no such."""
     assert command[0] == "maquette"
-    _parser().parse_args(command[1:])
+    parse(command[1:])
 
 
 @pytest.mark.parametrize("service", [None, *OURS])
@@ -125,18 +125,15 @@ def test_every_container_has_limits(name):
     assert set(limits) == {"memory", "pids"}
 
 
-def test_every_service_that_stays_is_asked_for_its_health_and_what_it_needs_comes_first():
-    assert set(SERVICES) == {*RUNNING, "prepare"}
+def test_every_service_is_asked_for_its_health_and_what_it_needs_comes_first():
+    assert set(SERVICES) == set(RUNNING)
     for name in RUNNING:
         assert SERVICES[name]["healthcheck"]["test"][0] == "CMD"
         assert SERVICES[name]["restart"] == "unless-stopped"
     for name in ("api", "worker"):
         assert SERVICES[name]["depends_on"] == {
-            "prepare": {"condition": "service_completed_successfully"}
+            needed: {"condition": "service_healthy"} for needed in ("database", "storage")
         }
-    assert SERVICES["prepare"]["depends_on"] == {
-        name: {"condition": "service_healthy"} for name in ("database", "storage")
-    }
 
 
 def test_only_the_api_is_published_and_only_on_this_host():

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 import yaml
 
-from service.cli import _parser
+from service.cli import parse
 from service.settings import PREFIX, Settings
 from service.version import VERSION
 
@@ -43,7 +43,7 @@ def test_every_pod_runs_our_image_with_a_command_of_ours_and_no_more_rights_than
     asked = [only["args"], *(each["exec"]["command"] for each in _probes(only) if "exec" in each)]
     for program, *arguments in asked:
         assert program == "maquette"
-        _parser().parse_args(arguments)
+        parse(arguments)
     assert pod["automountServiceAccountToken"] is pod["enableServiceLinks"] is False
     assert pod["securityContext"]["runAsNonRoot"] is True
     assert only["securityContext"] == {

@@ -1,6 +1,6 @@
 """What needs measurements says so where they are withheld."""
 
-from service.commands.terminal import print_result
+from service.commands.fit import print_result
 from tests.unit.service.fit_results import fit_result
 
 WITHHELD = {"measurements": [], "verdict": "implausible"}
