@@ -23,12 +23,8 @@ def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     asked = parser(__doc__)
     options = asked.parse_args(arguments)
-    if options.repeat and not options.scan:
-        asked.error("--repeat goes with --scan")
-    if options.proposed and (options.repeat or not options.scan):
+    if options.proposed and not options.scan:
         asked.error("--proposed goes with --scan")
-    if options.every and not options.again:
-        asked.error("--every goes with --again")
     if options.kind and not options.spoilt:
         asked.error("--kind goes with --spoilt")
     choice = Choice(
@@ -80,7 +76,7 @@ def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
 def _foreign(options: argparse.Namespace) -> list[str]:
     """The foreign pictures that are chosen, in a folder that may not be there."""
     half = None if options.half is None else Half(options.half)
-    wanted = options.set in (None, Series.FOREIGN.value) or options.detector or options.paper
+    wanted = options.set in (None, Series.FOREIGN.value) or options.paper
     if wanted and not options.case and not foreign_names():
         print(MISSING, flush=True)
     if options.case:

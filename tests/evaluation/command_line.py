@@ -70,22 +70,10 @@ def _add_told(to: argparse.ArgumentParser) -> None:
 
 def _add_modes(to: argparse.ArgumentParser) -> None:
     for name, what in (
-        (
-            "--outline-limit",
-            "fit nothing: print how well exactly known outlines foretell measurements",
-        ),
         ("--paper", "fit by the paper's own method and by ours, on the same pictures"),
-        (
-            "--detector",
-            "fit with none, each and all of what the detector tells, foreign pictures too",
-        ),
         (
             "--checks",
             "fit nothing: how often the checks of a capture find what is wrong, and what is not",
-        ),
-        (
-            "--spoilt-scans",
-            "scan people from both sides, spoilt in one way each: what a fault of pictures costs",
         ),
         (
             "--spoilt",
@@ -95,28 +83,17 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--covers",
             "fit people in gloves, masks, beards, stockings, dark skin, cloth of the skin's colour",
         ),
-        ("--nonsense", "fit people and what is none: how many of each the verdicts contradict"),
         (
             "--scan",
             "measure people from the front, from the side and from both, foreign ones too",
-        ),
-        (
-            "--again",
-            "fit pictures changed by what nobody sees: spread of measurements, and errors stated",
         ),
     ):
         to.add_argument(name, action="store_true", help=what)
     to.add_argument(
         "--kind", action="append", choices=KINDS, metavar="KIND", help="with --spoilt: these alone"
     )
-    to.add_argument("--every", action="store_true", help="with --again: all pictures, not a few")
     to.add_argument(
         "--proposed",
         action="store_true",
         help="with --scan: by points that the detector proposes, in place of clicks",
-    )
-    to.add_argument(
-        "--repeat",
-        action="store_true",
-        help="with --scan: how much measurements differ between pairs of one person",
     )

@@ -30,7 +30,6 @@ SAMPLES = {
     Series.LIGHTS: 36,
     Series.CLOTHED: 25,
     Series.PHONE: 36,
-    Series.REPEATED: 36,
     Series.CLOTHED_PAIRS: 25,
 }
 QUALITY = {
@@ -39,7 +38,6 @@ QUALITY = {
     Series.LIGHTS: 86,
     Series.CLOTHED: 86,
     Series.PHONE: 86,
-    Series.REPEATED: 86,
     Series.CLOTHED_PAIRS: 86,
 }
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"

@@ -6,17 +6,6 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
 
-from fitter.vocabulary.choices import Cues, Gender
-from tests.evaluation.again import (
-    Again,
-    again,
-    again_heading,
-    again_lines,
-    again_summary,
-    asked_again,
-    pictures_again,
-)
-from tests.evaluation.capture_costs import cost_lines, costs_of, people_of
 from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
 from tests.evaluation.clothes_check import clothed_pictures, clothes_lines, clothes_said
@@ -30,32 +19,27 @@ from tests.evaluation.clothing_table import (
 )
 from tests.evaluation.covers import asked_covers, covered_fit
 from tests.evaluation.covers_table import covers_heading, covers_line
-from tests.evaluation.detector_figures import detector_lines, hinted_fits
 from tests.evaluation.dressed import MISSING, dressed_names
 from tests.evaluation.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
-from tests.evaluation.nonsense import nonsense
 from tests.evaluation.nulls import null_rows, null_table
-from tests.evaluation.outline_limit import outline_limit, outline_lines
 from tests.evaluation.painted_clothes import painted_names
 from tests.evaluation.paper_method import method_errors, method_lines
 from tests.evaluation.runs import of_each
-from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
+from tests.evaluation.scan_tables import scan_lines, worst_scan_lines
 from tests.evaluation.scans import (
     Pair,
     Scanned,
     clothed_pairs,
     foreign_pairs,
     own_pairs,
-    repeated_pairs,
     scanned,
 )
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.spoilt import KINDS, asked_spoilt, measured
 from tests.evaluation.spoilt_table import spoilt_heading, spoilt_lines
 from tests.evaluation.stance_kinds import Kind
-from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
 
 EVERY = 2
 """Of people in this order as many are left out."""
@@ -93,20 +77,6 @@ class Choice:
         return [case for case in self.cases if case.series is Series.PEOPLE]
 
 
-def outline_limits(choice: Choice) -> None:
-    """What exactly known outlines leave."""
-    _print(outline_lines({each.value: outline_limit(each) for each in Gender}))
-
-
-def detector(choice: Choice) -> None:
-    """With none, each and all of what the detector tells."""
-    people = [case.name for case in choice.people_cases]
-    for title, names in (("suite", people), ("foreign", choice.foreign)):
-        if names:
-            hinted = of_each(hinted_fits, names, choice.jobs)
-            _print(detector_lines([each for several in hinted for each in several]), title)
-
-
 def paper(choice: Choice) -> None:
     """By the paper's own method, by that with what was added to it, and by ours."""
     people = [case.name for case in choice.people_cases]
@@ -125,13 +95,6 @@ def checks(choice: Choice) -> None:
         _print(lines, f"{half.value} half")
     asked = [each for half in choice.halves for each in clothed_pictures(half)]
     _print(clothes_lines(list(of_each(clothes_said, list(dict.fromkeys(asked)), choice.jobs))), "")
-
-
-def spoilt_scans(choice: Choice) -> None:
-    """What faults of the two photographs cost."""
-    for half in choice.halves:
-        found = of_each(costs_of, people_of(half), choice.jobs)
-        _print(cost_lines([each for several in found for each in several]), f"{half.value} half")
 
 
 def spoilt(choice: Choice) -> None:
@@ -156,17 +119,6 @@ def covers(choice: Choice) -> None:
             _print([covers_line(list(these))])
 
 
-def verdicts(choice: Choice) -> None:
-    """On people and on what is none."""
-    for half in choice.halves:
-        judged = [
-            *of_each(judged_picture, _names(choice, half), choice.jobs),
-            *of_each(judged_nonsense, nonsense(half, Cues.SES), choice.jobs),
-        ]
-        lines = verdict_lines([each for several in judged for each in several])
-        _print(lines, f"{half.value} half")
-
-
 def scan(choice: Choice) -> None:
     """People from the front, from the side and from both; of one set if one is asked for."""
     for half in choice.halves:
@@ -182,24 +134,6 @@ def scan(choice: Choice) -> None:
                 lines = [*scan_lines(found), *nulls, "", *worst_scan_lines(found)]
                 by = "proposals" if proposed else "clicks"
                 _print(lines, f"{series.value} set, {half.value} half: {len(pairs)} people, {by}")
-
-
-def repeat(choice: Choice) -> None:
-    """How much measurements differ between pairs of one person."""
-    for half in choice.halves:
-        _print(repeat_lines(_scans(repeated_pairs(half), choice.jobs)), f"{half.value} half")
-
-
-def seen_again(choice: Choice) -> None:
-    """The same pictures again, changed by what nobody sees."""
-    half = None if choice.options.half is None else Half(choice.options.half)
-    names = choice.options.case or pictures_again(every=choice.options.every, half=half)
-    _print([again_heading()])
-    found: list[Again] = []
-    for each in of_each(again, asked_again(names), choice.jobs):
-        _print(again_lines(each))
-        found += each
-    _print(again_summary(found), "all")
 
 
 def dressed(choice: Choice) -> None:
@@ -245,17 +179,11 @@ def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
 Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
-    "outline_limit": outline_limits,
-    "detector": detector,
     "paper": paper,
     "checks": checks,
-    "spoilt_scans": spoilt_scans,
     "spoilt": spoilt,
     "covers": covers,
-    "nonsense": verdicts,
-    "repeat": repeat,
     "scan": scan,
-    "again": seen_again,
 }
 
 

@@ -38,10 +38,6 @@ SMALL, LARGE = (480, 640), (720, 960)
 EVERY_LARGE = 5
 """One pair in so many is larger."""
 
-PAIRS_OF_ONE = 5
-REPEATED = ("woman_middle_aged_middling", "man_106_old_middling")
-"""One of either half, of ordinary build."""
-
 PLAIN_ROOMS = (
     Surroundings(wall_colour=(0.52, 0.5, 0.46), floor=Floor.WOOD, floor_colour=(0.26, 0.16, 0.09)),
     Surroundings(wall=Wall.CANVAS, wall_colour=(0.3, 0.31, 0.33)),
@@ -255,30 +251,9 @@ def _pairs() -> dict[str, PhonePair]:
     }
 
 
-def _repeated_pairs() -> dict[str, PhonePair]:
-    sitters = {sitter.source.name: sitter for sitter in SITTERS}
-    numbered = enumerate((person, take) for person in REPEATED for take in range(PAIRS_OF_ONE))
-    return {
-        f"again{take + 1}_{person}": _pair(
-            sitters[person],
-            name=f"again{take + 1}_{person}",
-            series=Series.REPEATED,
-            number=number,
-            seed=500 + 2 * number,
-            arms=arms_in_turn(number // 2),
-        )
-        for number, (person, take) in numbered
-    }
-
-
 PHONE_PAIRS: Mapping[str, PhonePair] = _pairs()
 """One pair of each person."""
 
-REPEATED_PAIRS: Mapping[str, PhonePair] = _repeated_pairs()
-"""Five pairs of each of two."""
-
 PHONE_CASES: tuple[Case, ...] = tuple(
-    case
-    for pair in (*PHONE_PAIRS.values(), *REPEATED_PAIRS.values())
-    for case in (pair.front, pair.side)
+    case for pair in PHONE_PAIRS.values() for case in (pair.front, pair.side)
 )

@@ -1,4 +1,4 @@
-"""What scans are worth, as text: errors by views, the worst of them, and how well they repeat."""
+"""What scans are worth, as text: errors by views, and the worst of them."""
 
 from collections.abc import Iterator, Sequence
 
@@ -63,34 +63,6 @@ def worst_scan_lines(found: Sequence[Scanned]) -> list[str]:
     for each in sorted(unaided, key=distance, reverse=True)[:WORST]:
         errors = "".join(f"{each.errors[key]:+11.1f}" for _, key, _ in MEASUREMENTS)
         lines.append(f"{each.person:32s}{errors}{each.joint_mm:11.1f}{each.overlap:9.3f}")
-    return lines
-
-
-def repeat_lines(found: Sequence[Scanned]) -> list[str]:
-    """Of every measurement the standard deviation over a person's pairs (and the mean error).
-
-    ``stated`` is the mean standard error that the fits themselves give, from front and side.
-    """
-    lines: list[str] = []
-    for person in dict.fromkeys(each.person for each in found):
-        kinds = list(_kinds([each for each in found if each.person == person]))
-        pairs = len(kinds[0][1])
-        lines += ["", f"{person}, {pairs} pairs"]
-        lines.append(f"{'':28s}" + "".join(f"{name:>22s}" for name, _ in kinds) + f"{'stated':>8s}")
-        for name in kinds[0][1][0].errors:
-            line = f"{name:28s}"
-            for _, these in kinds:
-                errors = np.array([each.errors[name] for each in these])
-                line += f"{f'{errors.std(ddof=1):.2f} ({errors.mean():+.2f})':>22s}"
-            stated = [
-                each.standard_errors[name]
-                for each in found
-                if each.person == person
-                and each.views is Views.BOTH
-                and not each.weight_given
-                and name in each.standard_errors
-            ]
-            lines.append(line + (f"{np.mean(stated):8.2f}" if stated else f"{'-':>8s}"))
     return lines
 
 

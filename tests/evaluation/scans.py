@@ -16,11 +16,7 @@ from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people_table import PEOPLE
-from tests.evaluation.phone_cases import (
-    PHONE_PAIRS,
-    REPEATED_PAIRS,
-    PhonePair,
-)
+from tests.evaluation.phone_cases import PHONE_PAIRS, PhonePair
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.scoring import overlap
@@ -99,12 +95,6 @@ def own_pairs(half: Half | None) -> list[Pair]:
         )
         for pair in PHONE_PAIRS.values()
     ]
-    return [pair for pair in pairs if half in (None, pair.half)]
-
-
-def repeated_pairs(half: Half | None) -> list[Pair]:
-    """The pairs of the people who have several."""
-    pairs = [_pair(pair) for pair in REPEATED_PAIRS.values()]
     return [pair for pair in pairs if half in (None, pair.half)]
 
 

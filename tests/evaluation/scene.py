@@ -27,14 +27,13 @@ class Series(StrEnum):
     SAMPLE = "sample"
     CLOTHED = "clothed"
     PHONE = "phone"
-    REPEATED = "repeated"
     CLOTHED_PAIRS = "clothed-pairs"
     FOREIGN = "foreign"
     DRESSED = "dressed"
     PAINTED = "painted"
 
 
-PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED, Series.CLOTHED_PAIRS})
+PAIRED_SERIES = frozenset({Series.PHONE, Series.CLOTHED_PAIRS})
 """A person from the front and from the side; fitted where they are asked for."""
 
 

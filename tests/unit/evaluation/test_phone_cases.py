@@ -1,5 +1,3 @@
-from collections import Counter
-
 import numpy as np
 import pytest
 from scipy.spatial import KDTree
@@ -15,18 +13,15 @@ from tests.evaluation.phone_cases import (
     HIGHEST_M,
     LOWEST_M,
     NEAREST_M,
-    PAIRS_OF_ONE,
     PHONE_CASES,
     PHONE_PAIRS,
-    REPEATED,
-    REPEATED_PAIRS,
     PhonePair,
 )
 from tests.evaluation.scene import Arm, Case, FocalLength, Half, Series
 from tests.evaluation.staging import Staged, lamp_place, stage
 from tests.unit.training.makehuman_data import needs_makehuman
 
-PAIRS = [*PHONE_PAIRS.values(), *REPEATED_PAIRS.values()]
+PAIRS = list(PHONE_PAIRS.values())
 
 
 def _is_stretched(arm: Arm) -> bool:
@@ -41,10 +36,6 @@ def test_everybody_has_one_pair_and_one_of_either_half_five_more():
     of_people = {case.person for case in CASES.values() if case.series is Series.PEOPLE}
     assert {pair.person for pair in PHONE_PAIRS.values()} == of_people
     assert len(PHONE_PAIRS) == len(of_people) == 24
-    again = Counter(pair.person for pair in REPEATED_PAIRS.values())
-    assert again == dict.fromkeys(REPEATED, PAIRS_OF_ONE)
-    assert {PEOPLE[person].half for person in REPEATED} == set(Half)
-    assert len({PEOPLE[person].gender for person in REPEATED}) == 2
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.front.name)
@@ -59,16 +50,6 @@ def test_a_person_turns_in_a_room_whose_camera_and_lamp_stay(pair: PhonePair):
 
 def test_clicks_and_noise_of_no_two_pictures_are_alike():
     assert len({case.seed for case in CASES.values()}) == len(CASES)
-
-
-def test_repeated_pairs_differ_in_room_light_distance_and_stance():
-    for person in REPEATED:
-        pairs = [pair for pair in REPEATED_PAIRS.values() if pair.person == person]
-        fronts = [pair.front for pair in pairs]
-        assert len({case.surroundings for case in fronts}) == PAIRS_OF_ONE
-        assert len({case.lighting for case in fronts}) == PAIRS_OF_ONE
-        assert len({case.view.distance_m for case in fronts}) >= PAIRS_OF_ONE - 1
-        assert len({repr(case.stance) for pair in pairs for case in (pair.front, pair.side)}) == 10
 
 
 @pytest.mark.parametrize("case", PHONE_CASES, ids=lambda case: case.name)
@@ -89,9 +70,6 @@ def test_arms_are_off_the_trunk_from_the_front_and_stretched_or_hanging_from_the
             _is_stretched(arm) for arm in (pair.side.stance.left_arm, pair.side.stance.right_arm)
         ]
         assert arms[0] == arms[1]
-    for person in REPEATED:
-        sides = [pair.side for pair in REPEATED_PAIRS.values() if pair.person == person]
-        assert {_is_stretched(case.stance.left_arm) for case in sides} == {True, False}
 
 
 @pytest.mark.parametrize("half", Half)

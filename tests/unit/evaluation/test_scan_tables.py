@@ -1,13 +1,9 @@
 from dataclasses import replace
 
-import numpy as np
-import pytest
-
 from fitter.vocabulary.choices import Clothing
 from tests.evaluation.foreign import FIRST_REPORTED
-from tests.evaluation.phone_cases import REPEATED
-from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
-from tests.evaluation.scans import Pair, Scanned, Views, own_pairs, repeated_pairs
+from tests.evaluation.scan_tables import scan_lines, worst_scan_lines
+from tests.evaluation.scans import Pair, Scanned, Views, own_pairs
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.table import MEASUREMENTS
 
@@ -79,27 +75,11 @@ def test_the_worst_are_judged_from_front_and_side_without_the_weight():
     assert [line.split()[:2] for line in lines[1:]] == [["large", "-5.0"], ["small", "+1.0"]]
 
 
-def test_repeats_show_how_pairs_scatter_and_what_they_have_in_common():
-    errors = (1.0, 2.0, 3.0, 4.0, 5.0)
-    found = [_scanned("a", error, standard_error=0.7) for error in errors]
-    _, title, _, *rows = repeat_lines(found)
-    assert title == "a, 5 pairs"
-    assert len(rows) == len(KEYS)
-    name, scatter, bias, stated = rows[0].split()
-    assert name == KEYS[0]
-    assert [float(scatter), bias, stated] == [
-        pytest.approx(np.std(errors, ddof=1), abs=0.005),
-        "(+3.00)",
-        "0.70",
-    ]
-
-
 def test_a_half_has_its_own_pairs_alone():
     for half in Half:
         pairs = own_pairs(half)
         assert len(pairs) == 12
-        assert {pair.half for pair in [*pairs, *repeated_pairs(half)]} == {half}
-        assert {pair.person for pair in repeated_pairs(half)} <= set(REPEATED)
+        assert {pair.half for pair in pairs} == {half}
 
 
 def test_four_pictures_are_a_pair_and_two_more():
