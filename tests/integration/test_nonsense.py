@@ -9,12 +9,14 @@ from fitter.vocabulary.choices import Cues, SegmentationKind
 from fitter.vocabulary.outcomes import Outcome, Severity, Verdict
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
-from tests.evaluation.nonsense import DONORS, NAMED_KINDS, nonsense
-from tests.evaluation.scene import Half
+from tests.evaluation.nonsense import DONORS, nonsense
 from tests.evaluation.suite import fit_request
 from tests.one_picture import changed
 
-MADE = {each.kind: each.request for each in nonsense(Half.TUNING, Cues.SE) if each.number == 0}
+MADE = nonsense(Cues.SE)
+
+NAMED_KINDS = ("landscape", "circle", "dog", "two in one mask")
+"""Kinds that must be recognised, with a detector and without."""
 
 
 def fitted(kind: str, *, with_detector: bool = False, force: bool = False) -> FitResult:
@@ -65,7 +67,7 @@ def test_who_insists_gets_measurements_and_a_warning():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", DONORS[Half.TUNING])
+@pytest.mark.parametrize("name", DONORS)
 def test_the_people_whose_points_these_are_get_theirs(name):
     request = changed(fit_request(read_case(CASES[name]), Cues.SE), force=False)
     result = fit(request)

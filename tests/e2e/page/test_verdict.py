@@ -10,12 +10,11 @@ from fitter.vocabulary.choices import Cues
 from tests.e2e.page.visitor import FIT_WITHIN_MS, Visitor
 from tests.e2e.service import ended_job
 from tests.evaluation.nonsense import nonsense
-from tests.evaluation.scene import Half
 
 
 @pytest.fixture(scope="module")
 def fit_of_hills(service: httpx.Client) -> dict:
-    asked = nonsense(Half.TUNING, Cues.SES, count=1)[0].request
+    asked = nonsense(Cues.SES)["landscape"]
     (view,) = asked.views
     request = {
         "gender": asked.person.gender,
