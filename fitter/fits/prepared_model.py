@@ -6,7 +6,6 @@ from pathlib import Path
 
 from fitter.body.model import BodyModel
 from fitter.energies.fitting_operators import FittingOperators, searched_operators
-from fitter.fits.kept_models import kept
 from fitter.fits.usable_model import model_path, usable_model
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
 from fitter.population.measured_population import MeasuredPopulation, measured_population
@@ -35,7 +34,7 @@ class PreparedModel:
 
 
 def prepared_model(gender: Gender, *, models: Path | None = None) -> PreparedModel:
-    """A gender's model, prepared once a process, or read as it was kept (:func:`kept`).
+    """A gender's model, prepared once a process, which takes one to two seconds.
 
     See :func:`usable_model` for the arguments.
 
@@ -49,7 +48,7 @@ def prepared_model(gender: Gender, *, models: Path | None = None) -> PreparedMod
 
 @cache
 def _prepared(source: Path, gender: Gender) -> PreparedModel:
-    prepared = kept(source, lambda: _prepare(usable_model(gender, models=source.parent)))
+    prepared = _prepare(usable_model(gender, models=source.parent))
     # Found once here, every process forked later has it.
     rig_space(prepared.searched.model)
     return prepared

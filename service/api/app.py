@@ -41,10 +41,10 @@ from service.api.readiness import checks as readiness_checks
 from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
+from service.compute.lanes import Ask
 from service.jobs.blobs import BlobStore
 from service.jobs.engine import JobEngine
 from service.jobs.keys import KeyRing
-from service.numerics.quick_lane import Ask
 from service.process.data_folder import Disk
 from service.settings import Settings
 from service.submissions.image_header import ReadHeader

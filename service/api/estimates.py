@@ -12,6 +12,9 @@ from api_schemas.problems import Problem
 from api_schemas.questions import BodyEstimate, InitialPose, PointsProposal, PointsRequest
 from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
+from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
+from service.compute.messages import DoneMessage, ProblemMessage, TaskMessage
+from service.compute.tasks import Parts
 from service.estimates import questions
 from service.estimates.questions import (
     ANSWER,
@@ -23,9 +26,6 @@ from service.estimates.questions import (
     InitialPoseTask,
     ProposedPoints,
 )
-from service.numerics.messages import DoneMessage, ProblemMessage, TaskMessage
-from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
-from service.numerics.tasks import Parts
 from service.process.logs import current_log_context
 from service.representation.formats import MeshFormat
 from service.submissions.refusal import RefusedError

@@ -10,16 +10,10 @@ from api_schemas.problems import Problem, field_problem
 from api_schemas.results import Assumption, Finding, FitResult, FitWarning
 from fitter.errors import ModelFileError
 from fitter.vocabulary.outcomes import Severity
-from service.compute.files import with_result_document
-from service.compute.pipeline_port import (
-    PipelineInput,
-    PipelineOutput,
-    UnusableInputError,
-    load_pipeline,
-)
-from service.jobs.inputs import SentPicture
-from service.jobs.records import Report
-from service.process.caches import settle_folders
+from service.compute.kernels import settle_folders
+from service.compute.tasks import OPTIONS, Parts, UnusableInputError, child_setup, load_tasks
+from service.jobs.inputs import RESULT, SentPicture, named_pictures
+from service.jobs.records import FIT, Report
 from service.representation.csv_tables import TABLE, measurements_csv
 from service.settings import Settings
 from service.startup import UNUSABLE, run_command
@@ -66,22 +60,22 @@ def fit_locally(
     request: Path, pictures: Sequence[Path], output: Path, *, pipeline: str = PIPELINE
 ) -> int:
     """Fit, write all files to a folder, print the measurements; return the exit status."""
-    found = told(
+    made = told(
         lambda: fitted(
             read_request(request),
             [SentPicture(picture.read_bytes(), None) for picture in pictures],
             pipeline=pipeline,
         )
     )
-    if found is None:
+    if made is None:
         return UNUSABLE
-    files = with_result_document(found.result, found.files)
-    files[TABLE] = measurements_csv(found.result.measurements)
+    result = FitResult.model_validate_json(made[RESULT])
+    files = {**made, TABLE: measurements_csv(result.measurements)}
     for name, content in files.items():
         path = output / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
-    print_result(found.result)
+    print_result(result)
     print(f"{len(files)} files lie in {output}.")
     return 0
 
@@ -128,8 +122,8 @@ def fitted(
     pictures: Sequence[SentPicture[bytes]],
     *,
     pipeline: str = PIPELINE,
-) -> PipelineOutput:
-    """Check and fit as the service does, and show how far it is.
+) -> Parts:
+    """Check and fit as the service does, and show how far it is; return the files by name.
 
     Raises
     ------
@@ -141,15 +135,10 @@ def fitted(
     checked = check_submission(asked, pictures, max_pixels=settings.max_pixels)
     check_detector(checked.request, settings.detector_dir)
     stages = Stages()
-    return load_pipeline(pipeline).run(
-        PipelineInput(
-            request=checked.request,
-            pictures=tuple(pictures),
-            max_pixels=settings.max_pixels,
-            models=settings.models_dir,
-            detector=settings.detector_dir,
-        ),
-        lambda report: stages.show(_stage(report), report.progress),
+    setup = child_setup(settings, name="fit", tasks=pipeline)
+    parts = {OPTIONS: checked.request.model_dump_json().encode(), **named_pictures(pictures)}
+    return load_tasks(pipeline)[FIT](
+        setup, parts, lambda report: stages.show(_stage(report), report.progress)
     )
 
 

@@ -15,10 +15,10 @@ from fitter.reproduction.drawing import Subject, reproduce, table_markdown
 from fitter.reproduction.panels import Figure
 from service.commands.fit import add_output, read_request, told
 from service.compute import translate
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.kernels import settle_folders
+from service.compute.tasks import UnusableInputError
 from service.demo_data.sample import load_sample, load_subject
 from service.jobs.inputs import SentPicture
-from service.process.caches import settle_folders
 from service.settings import Settings
 from service.startup import UNUSABLE, run_command
 from service.submissions.submission import check_submission

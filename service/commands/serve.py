@@ -12,11 +12,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final
 
-from service.compute.models_reading import check_detector, check_models
+from service.compute.lanes import SOCKET, asking
+from service.compute.models import check_detector, check_models
 from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
 from service.jobs.database import check_database, open_database, prepare_database
 from service.jobs.storage_identity import check_storage, take_storage
-from service.numerics.quick_lane import SOCKET, asking
 from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.supervisor import PYTHON, SupervisedProcess
 from service.process.work_folder import make_work_folder
@@ -26,7 +26,7 @@ from service.startup import UNUSABLE, UNUSABLE_SETTINGS, given, run_service
 LOG: Final = logging.getLogger(__name__)
 
 WORKER_COMMAND: Final = (*PYTHON, "-m", "service.compute")
-ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
+ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.compute", "questions")
 STOP_MARGIN_S: Final = 5.0
 """How much longer than its drain time a worker gets before it is killed."""
 
@@ -134,10 +134,10 @@ def serve(
     # Imported while the worker starts: it takes a second.
     from service.api.app import create_app
     from service.api.server import ApiServer
+    from service.compute.lanes import header_lane
     from service.jobs.engine import JobEngine
     from service.jobs.keys import KeyRing
     from service.jobs.notices import NoticeRunner, Sender
-    from service.numerics.header_lane import header_lane
     from service.representation.jobs import represent
 
     url = settings.system_database_url

@@ -16,6 +16,7 @@ from api_schemas.fit import FitRequest
 from api_schemas.person import unknown_name_remedy
 from api_schemas.picture import ViewRequest
 from api_schemas.problems import problem
+from api_schemas.results import FitResult
 from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
@@ -23,7 +24,7 @@ from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Gender, ViewKind
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
 from service.commands.fit import INPUT_FAULTS, PIPELINE, add_output, fault_lines, fitted, told
-from service.jobs.inputs import SentPicture
+from service.jobs.inputs import RESULT, SentPicture
 from service.startup import UNUSABLE, run_command
 from service.submissions.refusal import RefusedError
 
@@ -167,9 +168,10 @@ def _fit(number: int, row: Row, folder: Path, *, pipeline: str) -> _Fit:
     )
     try:
         pictures = [SentPicture((folder / path).read_bytes(), None) for path in views.values()]
-        result = fitted(asked, pictures, pipeline=pipeline).result
+        files = fitted(asked, pictures, pipeline=pipeline)
     except INPUT_FAULTS as error:
         return _Fit(number=number, row=row, fault=" ".join(" ".join(fault_lines(error)).split()))
+    result = FitResult.model_validate_json(files[RESULT])
     found = {each.name: (each.value, each.standard_error) for each in result.measurements}
     fault = None if found else f"withheld: {result.outcome_explanation}"
     return _Fit(number=number, row=row, found=found, fault=fault)

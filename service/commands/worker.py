@@ -2,7 +2,7 @@
 
 import argparse
 
-from service.compute.main import run_worker
+from service.compute.worker import run_worker
 from service.startup import run_service
 
 

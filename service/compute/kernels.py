@@ -1,37 +1,111 @@
-"""Kernels are compiled, or read as they were compiled, by one fit of the sample.
+"""Compiled kernels: where Numba keeps them, and one fit of the sample that compiles them.
 
-``python -m service.compute.kernels`` does it once an installation; a fork server does it before the
-first fork, so that none of its children compiles what another has compiled.
+Numba keeps what it compiles beside the code. ``python -m service.compute.kernels`` does it once an
+installation; a fork server does what is missing before the first fork, so that none of its children
+compiles what another has compiled. Where nobody may write beside the code, as in an image, a
+process has a folder with links to what lies there.
 """
 
+import hashlib
 import io
 import json
 import logging
 import os
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
-from PIL import Image
-
 from api_schemas.fit import FitRequest
-from fitter.applications.caricature import caricature_of_most_unusual
-from fitter.errors import ModelFileError
-from fitter.fits.prepared_model import prepared_model
-from fitter.person.fitted_person import FittedPerson
-from service.compute import pipeline
-from service.compute.files import with_result_document
-from service.compute.pipeline_port import PipelineInput, PipelineOutput
-from service.demo_data.sample import Sample, load_sample
-from service.jobs.inputs import PERSON, SentPicture
-from service.process.caches import KERNELS, forget_kernels, package, settle_folders
-from service.submissions.submission import check_submission
+from service.process.work_folder import make_work_folder
 
 LOG: Final = logging.getLogger(__name__)
+
+VARIABLE: Final = "NUMBA_CACHE_DIR"
+
+FILES: Final = "*.nb[ci]"
+"""Numba's: an index for each kernel, and its code for each combination of types."""
 
 SMALLER: Final = 4
 """Times, each side of the sample: a fit of this passes through the same code in half the time."""
 
 MAX_PIXELS: Final = 1_000_000
+
+
+def settle_folders() -> Path:
+    """Settle all folders before the numerics are loaded; return the one for temporary files.
+
+    A folder that the environment names stays. A process that has loaded Numba already has its own.
+    """
+    work = make_work_folder()
+    # Set even to nothing, which is beside the code: a file of Numba's in the current folder would
+    # else name a folder, whose kernels are run.
+    named = os.environ.setdefault(VARIABLE, "")
+    if not named and "numba" not in sys.modules and not os.access(package(), os.W_OK):
+        link_kernels(work / "kernels")
+        os.environ[VARIABLE] = str(work / "kernels")
+    return work
+
+
+def link_kernels(folder: Path, kept: Path | None = None) -> None:
+    """Lay links into a folder for Numba's cache: to kernels beside the code, and to those kept."""
+    for code, name in _folders():
+        (folder / name).mkdir(mode=0o700, parents=True, exist_ok=True)
+        places = [code / "__pycache__", *([] if kept is None else [kept / name])]
+        for file in (file for place in places for file in place.glob(FILES)):
+            link = folder / name / file.name
+            link.unlink(missing_ok=True)
+            link.symlink_to(file)
+
+
+def keep_kernels(folder: Path, kept: Path | None = None) -> None:
+    """Copy what was compiled into a folder of links to where Numba keeps kernels otherwise."""
+    for code, name in _folders():
+        for file in (folder / name).glob(FILES):
+            if not file.is_symlink():
+                try:
+                    _copy(file, code / "__pycache__" if kept is None else kept / name)
+                except OSError as error:
+                    LOG.warning("Kernels cannot be kept; each start compiles them: %s", error)
+                    return
+
+
+def _copy(file: Path, folder: Path) -> None:
+    """Copy it so that it is there as a whole or not at all."""
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    unfinished = folder / f"{file.name}.{os.getpid()}"
+    try:
+        shutil.copyfile(file, unfinished)
+        unfinished.replace(folder / file.name)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _forget_kernels(folder: Path) -> None:
+    """Remove the kernels of a folder, and the files that its links lead to."""
+    for file in folder.rglob(FILES):
+        with suppress(OSError):
+            file.resolve().unlink(missing_ok=True)
+        file.unlink(missing_ok=True)
+
+
+def package() -> Path:
+    """The fitter's folder, found without loading it."""
+    found = find_spec("fitter")
+    assert found is not None
+    return Path(next(iter(found.submodule_search_locations or ())))
+
+
+def _folders() -> Iterator[tuple[Path, str]]:
+    """The folders of code that have kernels, and what each is called in a folder for the cache.
+
+    Numba names it so itself (:mod:`numba.core.caching`), which is not to be loaded for this.
+    """
+    for code in sorted({source.parent for source in package().rglob("_*kernels.py")}):
+        yield code, f"{code.name}_{hashlib.sha1(str(code).encode()).hexdigest()}"
 
 
 def make_kernels_ready(detector: Path | None = None) -> None:
@@ -45,54 +119,63 @@ def make_kernels_ready(detector: Path | None = None) -> None:
     ModelFileError
         If a model is missing or damaged.
     """
+    from fitter.errors import ModelFileError
+
     try:
         fit_sample(detector)
     except ModelFileError:
         raise
     except Exception as error:
         LOG.warning("Kernels are compiled anew, as those kept are of no use: %r", error)
-        forget_kernels(Path(os.environ.get(KERNELS) or package()))
+        _forget_kernels(Path(os.environ.get(VARIABLE) or package()))
         fit_sample(detector)
 
 
-def fit_sample(detector: Path | None = None) -> PipelineOutput:
-    """Fit the sample in small.
+def fit_sample(detector: Path | None = None) -> bytes:
+    """Fit the sample in small, and return the person.
 
     Fits are functions of their requests: nothing of the sample is left for them.
     """
-    image, request = _smaller(load_sample())
-    pictures = (SentPicture(image, None),)
+    # Imported here: Numba reads once where its cache is.
+    from service.compute.pipeline import fit_task
+    from service.compute.tasks import OPTIONS, ChildSetup
+    from service.demo_data.sample import load_sample
+    from service.jobs.inputs import PERSON, SentPicture, named_pictures
+    from service.submissions.submission import check_submission
+
+    sample = load_sample()
+    image, request = _smaller(sample.image, sample.request)
+    pictures = [SentPicture(image, None)]
     checked = check_submission(request, pictures, max_pixels=MAX_PIXELS)
-    output = pipeline.run(
-        PipelineInput(
-            request=checked.request,
-            pictures=pictures,
-            max_pixels=MAX_PIXELS,
-            detector=detector,
-        ),
-        lambda _: None,
-    )
-    with_result_document(output.result, output.files)
-    return output
+    setup = ChildSetup(name="sample", max_pixels=MAX_PIXELS, detector=detector)
+    options = checked.request.model_dump_json().encode()
+    return fit_task(setup, {OPTIONS: options, **named_pictures(pictures)}, lambda _: None)[PERSON]
 
 
-def _smaller(sample: Sample) -> tuple[bytes, FitRequest]:
+def _smaller(image: bytes, request: bytes) -> tuple[bytes, FitRequest]:
     """The sample's picture and request, each side a fraction of what it was."""
-    with Image.open(io.BytesIO(sample.image)) as picture:
+    from PIL import Image
+
+    with Image.open(io.BytesIO(image)) as picture:
         reduced = picture.reduce(SMALLER)
     encoded = io.BytesIO()
     reduced.save(encoded, "JPEG")
-    request = json.loads(sample.request)
-    for point in request["views"][0]["points"].values():
+    asked = json.loads(request)
+    for point in asked["views"][0]["points"].values():
         point["x"] /= SMALLER
         point["y"] /= SMALLER
-    return encoded.getvalue(), FitRequest.model_validate_json(json.dumps(request))
+    return encoded.getvalue(), FitRequest.model_validate_json(json.dumps(asked))
 
 
 def _compile_all() -> None:
     """Compile what a fit calls, and what only a caricature does: where a surface crosses itself."""
     make_kernels_ready()
-    person = FittedPerson.from_bytes(fit_sample().files[PERSON])
+
+    from fitter.applications.caricature import caricature_of_most_unusual
+    from fitter.fits.prepared_model import prepared_model
+    from fitter.person.fitted_person import FittedPerson
+
+    person = FittedPerson.from_bytes(fit_sample())
     operators = prepared_model(person.gender).operators
     caricature_of_most_unusual(operators.evaluator, person.body.shape, 1.1)
 

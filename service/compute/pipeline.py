@@ -1,9 +1,10 @@
-"""The pipeline of the service: the fitter between two translations."""
+"""The tasks of jobs, a fit and its products: the fitter between two translations."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from typing import Final
 
-from api_schemas.products.base import ProductResult
+from api_schemas.fit import FitRequest
+from api_schemas.products import ProductRequest
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import result_files, tapes_json
 from fitter.export.display import png
@@ -13,43 +14,50 @@ from fitter.fits.pipeline import fit
 from fitter.result import FitResult
 from service.compute import translate
 from service.compute.fit_results import fit_result
-from service.compute.pipeline_port import (
-    Made,
-    PipelineInput,
-    PipelineOutput,
-    ProductInput,
-    UnusableInputError,
-)
 from service.compute.products import maker_of
 from service.compute.products.finished_fit import finished_fit
-from service.compute.tasks import job_tasks
-from service.jobs.inputs import BODY, PERSON, TAPES
-from service.jobs.records import Report
+from service.compute.tasks import (
+    OPTIONS,
+    PRODUCT,
+    ChildSetup,
+    Observe,
+    Parts,
+    Task,
+    UnusableInputError,
+    with_result_document,
+)
+from service.jobs.inputs import BODY, PERSON, RESULT, TAPES, pictures_of
+from service.jobs.records import FIT, Report
 
 _SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
-"""What ``body.png`` shows, and how far the onlooker has walked round, degrees."""
+"""Views of ``body.png``, and how far the onlooker has walked round, degrees."""
 
 
-def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    """Fit one body to all pictures; see :class:`service.compute.pipeline_port.Pipeline`."""
-    request = translate.fit_request(job.request, job.pictures, max_pixels=job.max_pixels)
-    equipment = Equipment(models=job.models, detector_weights=job.detector)
+def fit_task(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+    """Fit one body to all pictures, which come by :func:`service.jobs.inputs.named_pictures`.
+
+    The points of the request are named.
+    """
+    asked = FitRequest.model_validate_json(parts[OPTIONS])
+    pictures = pictures_of(parts)
+    request = translate.fit_request(asked, pictures, max_pixels=setup.max_pixels)
+    equipment = Equipment(models=setup.models, detector_weights=setup.detector)
     try:
         found = fit(
             request, equipment, observer=lambda progress: observe(translate.report(progress))
         )
         prepared = equipment.model(found.person.gender)
         model = prepared.operators.model
-        files = result_files(found, model=model, images=[each.image for each in job.pictures])
+        files = result_files(found, model=model, images=[each.image for each in pictures])
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
-        field = translate.proposed_field(job.request)
+        field = translate.proposed_field(asked)
         raise UnusableInputError(translate.detector_problem(error, field=field)) from error
     files[PERSON] = found.person.to_bytes()
     files[TAPES] = tapes_json(found, prepared.measuring)
     files[BODY] = _from_all_round(found)
-    return PipelineOutput(result=fit_result(found, part_names=model.part_names), files=files)
+    return with_result_document(fit_result(found, part_names=model.part_names), files)
 
 
 def _from_all_round(found: FitResult) -> bytes:
@@ -58,19 +66,20 @@ def _from_all_round(found: FitResult) -> bytes:
     return png(preview(views, found.triangles))
 
 
-def make(product: ProductInput, observe: Callable[[Report], None]) -> Made[ProductResult]:
-    """Make a product of a fit; see :class:`service.compute.pipeline_port.Pipeline`."""
-    kind = product.options.kind
+def product_task(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+    """Make a product of a fit's files and of the part that came with the request, if one did."""
+    options = ProductRequest.model_validate_json(parts[OPTIONS]).root
 
     def report(progress: float) -> None:
-        observe(Report(stage=kind, progress=progress))
+        observe(Report(stage=options.kind, progress=progress))
 
     report(0.0)
     try:
-        fit = finished_fit(product.files, max_pixels=product.max_pixels, models=product.models)
-        return maker_of(kind)(fit, product.options, report)
+        finished = finished_fit(parts, max_pixels=setup.max_pixels, models=setup.models)
+        made = maker_of(options.kind)(finished, options, report)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
+    return {**made.files, RESULT: made.result.model_dump_json().encode()}
 
 
-TASKS: Final = job_tasks(run, make)
+TASKS: Final[Mapping[str, Task]] = {FIT: fit_task, PRODUCT: product_task}

@@ -2,44 +2,22 @@
 
 import logging
 import os
-import signal
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from service.process.caches import KERNELS, VARIABLE, keep_kernels, link_kernels, settle_folders
-from service.process.confinement import write_only_below
+from service.compute.kernels import (
+    VARIABLE,
+    keep_kernels,
+    link_kernels,
+    make_kernels_ready,
+    settle_folders,
+)
+from service.process.confinement import ending_with_the_parent
 from service.settings import Settings
 
 LOG: Final = logging.getLogger(__name__)
-
-LOOK_S: Final = 1.0
-"""So often a process that loads looks whether its worker is still there."""
-
-
-@contextmanager
-def _ending_with_the_worker() -> Iterator[None]:
-    """End this process if the worker ends meanwhile: its folder with the kernels is gone then.
-
-    They would be compiled anew, for minutes, and nobody would use them.
-    """
-    worker = os.getppid()
-
-    def look(*_: object) -> None:
-        if os.getppid() != worker:
-            os._exit(0)
-
-    before = signal.signal(signal.SIGALRM, look)
-    # Libraries go on with what they wait for.
-    signal.siginterrupt(signal.SIGALRM, False)
-    signal.setitimer(signal.ITIMER_REAL, LOOK_S, LOOK_S)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
 
 
 def _load(settings: Settings) -> None:
@@ -48,7 +26,6 @@ def _load(settings: Settings) -> None:
     from fitter.errors import DetectorUnavailableError, ModelFileError
     from fitter.fits.prepared_model import prepared_model
     from fitter.vocabulary.choices import Gender
-    from service.compute.kernels import make_kernels_ready
 
     # Without a detector, whoever needs it is told.
     with suppress(DetectorUnavailableError):
@@ -71,13 +48,11 @@ if VARIABLE not in os.environ:
 
 # Whoever decodes pictures can write to this folder alone, and nobody reads what it writes there
 # but others that are forked here: what is kept is copied before.
-KEPT: Final = Path(os.environ[KERNELS]) if os.environ.get(KERNELS) else None
+KEPT: Final = Path(os.environ[VARIABLE]) if os.environ.get(VARIABLE) else None
 OWN: Final = Path(tempfile.mkdtemp(prefix="kernels-"))
 link_kernels(OWN, KEPT)
-os.environ[KERNELS] = str(OWN)
-with _ending_with_the_worker():
+os.environ[VARIABLE] = str(OWN)
+# The folder is gone with the worker: kernels would be compiled, for minutes, that nobody uses.
+with ending_with_the_parent():
     _load(Settings())
     keep_kernels(OWN, KEPT)
-
-# From here on pictures are decoded, in what is forked: what it may write ends with the worker.
-write_only_below(os.environ["TMPDIR"])

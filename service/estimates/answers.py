@@ -16,7 +16,7 @@ from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import ProblemError, UnusableInputError
 from service.compute.translate import field_problem, known_measurements, person
 from service.estimates import translate
 from service.estimates.questions import (
@@ -27,7 +27,6 @@ from service.estimates.questions import (
     ProposedPoints,
     estimate_tasks,
 )
-from service.numerics.tasks import ProblemError
 from service.submissions.submission import no_detector
 
 _TOO_MUCH_MEMORY = FieldProblem(

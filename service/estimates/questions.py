@@ -20,7 +20,7 @@ from api_schemas.questions import (
     PointsProposal,
     PointsRequest,
 )
-from service.numerics.tasks import ChildSetup, Observe, Parts, Task
+from service.compute.tasks import ChildSetup, Observe, Parts, Task
 
 BODY: Final = "body"
 INITIAL_POSE: Final = "initial_pose"

@@ -1,4 +1,4 @@
-"""What a process gives up before it decodes pictures: secrets, new privileges, writing, TCP.
+"""Confinement of a process before it decodes pictures: secrets, new privileges, writing, TCP.
 
 A picture that takes over its decoder should find nothing worth having. The environment of the
 service holds the database's address and passwords, so the fork server is executed anew with what
@@ -11,10 +11,11 @@ them has a version 1.0. Elsewhere nothing is given up but the environment.
 import ctypes
 import logging
 import os
+import signal
 import struct
 import sys
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
@@ -34,7 +35,7 @@ NEEDED: Final = frozenset(
         "MAX_PIXELS",
         "MODELS_DIR",
     )
-) | {"FITTER_CACHE_DIR", "HOME", "LANG", "PATH", "TMPDIR", "TZ", "LD_LIBRARY_PATH"}
+) | {"HOME", "LANG", "PATH", "TMPDIR", "TZ", "LD_LIBRARY_PATH"}
 NEEDED_BEGINNINGS: Final = (
     "LC_",
     "MALLOC_",
@@ -47,25 +48,25 @@ NEEDED_BEGINNINGS: Final = (
     "XDG_CACHE_",
 )
 
+PR_SET_PDEATHSIG: Final = 1
 PR_SET_NO_NEW_PRIVS: Final = 38
 
 
-def without_secrets(environment: Mapping[str, str], *, also: Iterable[str] = ()) -> dict[str, str]:
-    """Return what a process needs that decodes pictures; ``also`` are more beginnings of names."""
-    beginnings = (*NEEDED_BEGINNINGS, *also)
+def without_secrets(environment: Mapping[str, str]) -> dict[str, str]:
+    """Return what a process needs that decodes pictures."""
     return {
         name: value
         for name, value in environment.items()
-        if name in NEEDED or name.startswith(beginnings)
+        if name in NEEDED or name.startswith(NEEDED_BEGINNINGS)
     }
 
 
-def forget_secrets(*, also: Iterable[str] = ()) -> None:
+def forget_secrets() -> None:
     """Execute this program again, as the same process, unless it knows no more than it needs.
 
     To be called before anything is opened or loaded. No privileges can be gained afterwards.
     """
-    needed = without_secrets(os.environ, also=also)
+    needed = without_secrets(os.environ)
     if needed.keys() != os.environ.keys():
         os.execve(sys.executable, sys.orig_argv, needed)
     gain_no_privileges()
@@ -73,8 +74,22 @@ def forget_secrets(*, also: Iterable[str] = ()) -> None:
 
 def gain_no_privileges() -> None:
     """Have no program that is executed from here on gain privileges."""
+    _control(PR_SET_NO_NEW_PRIVS, 1)
+
+
+@contextmanager
+def ending_with_the_parent() -> Iterator[None]:
+    """End this process if its parent ends meanwhile."""
+    _control(PR_SET_PDEATHSIG, signal.SIGKILL)
+    try:
+        yield
+    finally:
+        _control(PR_SET_PDEATHSIG, 0)
+
+
+def _control(option: int, value: int) -> None:
     with suppress(AttributeError, OSError):
-        ctypes.CDLL(None).prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+        ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446

@@ -1,7 +1,7 @@
 """What a picture's header says: kind, upright size, animation and focal length, by Pillow.
 
 Pillow opens a picture without decoding its pixels, but inflates the texts of a PNG and calls
-libraries for WebP and HEIC: the API has it done in a child (:mod:`service.numerics.header_lane`).
+libraries for WebP and HEIC: the API has it done in a child (:mod:`service.compute.lanes`).
 """
 
 import contextlib

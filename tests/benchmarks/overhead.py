@@ -127,27 +127,21 @@ def _used(deployment: Deployment) -> list[float]:
 
 def _loop(answer: Connection) -> None:
     from api_schemas.fit import FitRequest
-    from service.compute import pipeline
-    from service.compute.files import with_result_document
-    from service.compute.pipeline_port import PipelineInput
-    from service.jobs.inputs import SentPicture
+    from service.compute.pipeline import fit_task
+    from service.compute.tasks import OPTIONS, ChildSetup
+    from service.jobs.inputs import SentPicture, named_pictures
     from service.submissions.submission import check_submission
 
+    setup = ChildSetup(name="job", max_pixels=MAX_PIXELS)
     while submissions := answer.recv():
         used, began = time.process_time(), time.monotonic()
         for each in submissions:
             asked = FitRequest.model_validate_json(each.request)
             pictures = (SentPicture(each.image, None),)
             checked = check_submission(asked, pictures, max_pixels=MAX_PIXELS)
-            output = pipeline.run(
-                PipelineInput(
-                    request=checked.request,
-                    pictures=pictures,
-                    max_pixels=MAX_PIXELS,
-                    models=None,
-                    detector=None,
-                ),
-                lambda _: None,
-            )
-            with_result_document(output.result, output.files)
+            parts = {
+                OPTIONS: checked.request.model_dump_json().encode(),
+                **named_pictures(pictures),
+            }
+            fit_task(setup, parts, lambda _: None)
         answer.send(_Taken(wall_s=time.monotonic() - began, fits_s=time.process_time() - used))

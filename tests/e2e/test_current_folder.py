@@ -130,4 +130,4 @@ def test_an_api_alone_and_its_estimator_run_nothing_either(folder: Folder):
     assert not folder.mark.exists(), folder.mark.read_text()
     assert answer.status_code == 200, answer.text
     assert folder.left() == ["maquette-data"]
-    assert "-m service.estimates" in folder.processes.read_text()
+    assert "-m service.compute questions" in folder.processes.read_text()

@@ -12,15 +12,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from api_schemas.fit import FitRequest
-from api_schemas.products import ProductRequest
-from service.compute.files import with_result_document
-from service.compute.pipeline import make, run
-from service.compute.pipeline_port import PipelineInput, ProductInput
+from service.compute.pipeline import fit_task, product_task
+from service.compute.tasks import OPTIONS, ChildSetup
 from service.demo_data.sample import load_sample, load_views_sample
-from service.jobs.inputs import RESULT, SentPicture, named_pictures, product_inputs
+from service.jobs.inputs import SentPicture, named_pictures, product_inputs
 from service.submissions.submission import check_submission
 
 MAX_PIXELS = 2_000_000
+SETUP = ChildSetup(name="job", max_pixels=MAX_PIXELS)
 
 PRODUCTS: Mapping[str, dict[str, object]] = {
     "texture": {"kind": "texture", "colours": "picture", "size": 512},
@@ -73,20 +72,14 @@ def _of_fit(request: bytes, *images: bytes) -> dict[str, bytes]:
     pictures = tuple(SentPicture(image, None) for image in images)
     asked = FitRequest.model_validate_json(request)
     checked = check_submission(asked, pictures, max_pixels=MAX_PIXELS)
-    output = run(
-        PipelineInput(request=checked.request, pictures=pictures, max_pixels=MAX_PIXELS),
-        lambda _: None,
-    )
-    return with_result_document(output.result, output.files) | named_pictures(pictures)
+    options = checked.request.model_dump_json().encode()
+    files = named_pictures(pictures)
+    return {**fit_task(SETUP, {OPTIONS: options, **files}, lambda _: None), **files}
 
 
 def _products(
     asked_of: Mapping[str, dict[str, object]], there: Mapping[str, bytes]
 ) -> Iterator[tuple[str, Mapping[str, bytes]]]:
     for name, asked in asked_of.items():
-        request = ProductRequest.model_validate_json(json.dumps(asked))
-        made = make(
-            ProductInput(options=request.root, files=product_inputs(there), max_pixels=MAX_PIXELS),
-            lambda _: None,
-        )
-        yield name, {**made.files, RESULT: made.result.model_dump_json().encode()}
+        parts = {OPTIONS: json.dumps(asked).encode(), **product_inputs(there)}
+        yield name, product_task(SETUP, parts, lambda _: None)

@@ -9,8 +9,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from api_schemas.products.base import ProductResult
-from service.compute.pipeline_port import Made
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 
 Report = Callable[[float], None]
 """Tells how much of the work is done, from 0 to 1."""

@@ -11,9 +11,8 @@ from fitter.applications.animation import (
 )
 from fitter.applications.motion_file import read_motion
 from fitter.applications.rig import Rig, rig_of
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 from service.compute.products.pictured_body import texture_files, texture_for
 from service.jobs.inputs import CLIP
 

@@ -13,9 +13,8 @@ from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
 from fitter.export.views import BodyView, preview
 from fitter.person.upright import upright_turn
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 
 
 def make(fit: FinishedFit, options: CaricatureOptions, report: Report) -> Made[CaricatureResult]:

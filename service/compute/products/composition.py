@@ -6,10 +6,8 @@ from api_schemas.products.documents import (
     CompositionResult,
 )
 from fitter.applications.body_fat import body_fat, body_mass_index
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
-from service.compute.products.measured import measured
+from service.compute.products.finished_fit import FinishedFit, Made, measured
 from service.representation.csv_tables import models_csv
 
 

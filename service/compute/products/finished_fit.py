@@ -1,13 +1,30 @@
-"""A finished fit, as what is made of it sees it."""
+"""A finished fit, as what is made of it sees it, and what is made of one."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic, TypeVar
 
+from pydantic import BaseModel
+
+from api_schemas.products.base import ProductResult
+from api_schemas.results import Measurement
 from fitter.energies.fitting_operators import FittingOperators
+from fitter.errors import InvalidInputError
 from fitter.fits.prepared_model import prepared_model
+from fitter.measurement.joint_measurements import JointMeasurements, joint_measurements
 from fitter.person.fitted_person import FittedPerson, require_model
-from service.jobs.inputs import PERSON
+from service.jobs.inputs import PERSON, RESULT
+
+Result_co = TypeVar("Result_co", bound=ProductResult, covariant=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Made(Generic[Result_co]):
+    """A product: what there is to say of it, and its files by name."""
+
+    result: Result_co
+    files: Mapping[str, bytes]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -27,7 +44,7 @@ class FinishedFit:
 
 
 def finished_fit(
-    files: Mapping[str, bytes], *, max_pixels: int, models: Path | None
+    files: Mapping[str, bytes], *, max_pixels: int, models: Path | None = None
 ) -> FinishedFit:
     """Read ``person.npz`` and prepare the body model it was fitted with.
 
@@ -42,3 +59,43 @@ def finished_fit(
     return FinishedFit(
         person=person, operators=operators, files=files, max_pixels=max_pixels, models=models
     )
+
+
+class _Told(BaseModel):
+    """The part of a result's document that says which measurements were given."""
+
+    measurements: tuple[Measurement, ...]
+    outcome_explanation: str = ""
+
+
+def measured(fit: FinishedFit) -> JointMeasurements:
+    """Measure the person of a fit, with what is known of the errors.
+
+    Raises
+    ------
+    InvalidInputError
+        ``fit-unusable`` where the fit's measurements are withheld, or it does not know how certain
+        its shape is.
+    """
+    told = _Told.model_validate_json(fit.files[RESULT])
+    if not told.measurements:
+        raise _unusable(
+            f"That fit's measurements are withheld. {told.outcome_explanation}".rstrip(),
+            "Fit its picture again with `force`.",
+        )
+    person = fit.person
+    if person.shape_covariance is None:
+        reason = "The fit does not say how certain its shape is."
+        raise _unusable(reason, "Fit the picture again, without `paper`.")
+    given = [each for each in told.measurements if each.given]
+    return joint_measurements(
+        prepared_model(person.gender, models=fit.models).measuring,
+        person.body.shape,
+        shape_covariance=person.shape_covariance,
+        given=[each.name for each in given],
+        held=[each.name for each in given if each.standard_error == 0.0],
+    )
+
+
+def _unusable(reason: str, remedy: str) -> InvalidInputError:
+    return InvalidInputError(code="fit-unusable", field="kind", reason=reason, remedy=remedy)

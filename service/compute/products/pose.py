@@ -16,9 +16,8 @@ from fitter.export.views import BodyView, preview
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from service.compute.fit_results import body_result
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 from service.compute.products.pictured_body import texture_files, texture_for
 
 

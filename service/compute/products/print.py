@@ -11,9 +11,8 @@ import numpy as np
 from api_schemas.products.documents import PrintOptions, PrintResult
 from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
 from fitter.vocabulary.measurements import CHIEF
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 from service.jobs.inputs import BODY, OVERLAY, RESULT, of_view
 
 PICTURE_HEIGHT_PX: Final = 900

@@ -13,10 +13,8 @@ from api_schemas.products.documents import (
 )
 from fitter.applications.sizes import Sizes, size_answer, sizes_of
 from fitter.measurement.joint_measurements import JointMeasurements
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
-from service.compute.products.measured import measured
+from service.compute.products.finished_fit import FinishedFit, Made, measured
 from service.jobs.inputs import CHART
 from service.representation.csv_tables import models_csv
 

@@ -8,9 +8,8 @@ from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.export.display import png
 from fitter.observation.decoding import decode_picture
-from service.compute.pipeline_port import Made
 from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit
+from service.compute.products.finished_fit import FinishedFit, Made
 from service.compute.products.pictured_body import picture_on
 from service.jobs.inputs import TEXTURE
 

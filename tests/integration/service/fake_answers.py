@@ -25,7 +25,7 @@ from api_schemas.questions import (
 from api_schemas.results import BodyResult, CameraResult, Finding, PartRotation
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import ProblemError, UnusableInputError
 from service.estimates.questions import (
     BodyTask,
     ConversionTask,
@@ -34,13 +34,13 @@ from service.estimates.questions import (
     ProposedPoints,
     estimate_tasks,
 )
-from service.numerics.tasks import ProblemError
 from service.submissions.submission import no_detector
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
 GLB = b"glTF" + bytes(range(256))
 MASK = b"\x89PNG" + bytes(range(64))
-GATE = "FAKE_ANSWERS_GATE"
+# Processes that compute are left variables of Python's.
+GATE = "PYTHON_FAKE_ANSWERS_GATE"
 NOBODY = Finding(
     code="nobody-found",
     severity=Severity.BLOCKS,

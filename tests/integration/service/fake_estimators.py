@@ -7,10 +7,10 @@ from pathlib import Path
 
 def main(estimates: str, questions_at: str) -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
-    from service.compute.main import run_estimators
+    from service.compute.worker import run_estimators
     from service.process.logs import configure_logging
     from service.settings import Settings
-    from tests.integration.service.fake_worker import ESTIMATES, FAKE_PRELOAD, FAKE_SECRETLESS
+    from tests.integration.service.fake_worker import ESTIMATES, FAKE_PRELOAD
 
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
     settings = Settings()
@@ -19,7 +19,6 @@ def main(estimates: str, questions_at: str) -> None:
         settings,
         questions_at=questions_at,
         estimates=ESTIMATES[estimates],
-        secretless=FAKE_SECRETLESS,
         preload=FAKE_PRELOAD,
     )
 

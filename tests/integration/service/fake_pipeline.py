@@ -10,24 +10,28 @@ import os
 import struct
 import time
 import zlib
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from api_schemas.fit import FitRequest
 from api_schemas.problems import FieldProblem
-from api_schemas.products.base import ProductResult
+from api_schemas.products import ProductRequest
 from api_schemas.service import BodyModelInfo, BodyModels
 from fitter.vocabulary.choices import Gender
-from service.compute.pipeline_port import (
-    Made,
-    PipelineInput,
-    PipelineOutput,
-    ProductInput,
+from service.compute.tasks import (
+    OPTIONS,
+    PRODUCT,
+    ChildSetup,
+    Observe,
+    Parts,
+    Task,
     UnusableInputError,
+    with_result_document,
 )
-from service.compute.tasks import job_tasks
-from service.jobs.inputs import PERSON, SentPicture
-from service.jobs.records import Report
+from service.jobs.inputs import PERSON, RESULT, SentPicture, pictures_of
+from service.jobs.records import FIT, Report
+from service.settings import Settings
 from tests.integration.service.fake_products import made_product
 from tests.integration.service.fake_results import fit_result, result_files
 
@@ -55,9 +59,10 @@ def scripted_image(
     return b"\x89PNG\r\n\x1a\n" + chunks + SCRIPT_MARK + json.dumps(script or {}).encode()
 
 
-def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+def fit(_setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
     """Do what each picture says, one after the other, and what the first says in the end."""
-    scripts = [_script(each) for each in job.pictures]
+    asked, pictures = FitRequest.model_validate_json(parts[OPTIONS]), pictures_of(parts)
+    scripts = [_script(each) for each in pictures]
     _begin(scripts[0])
     if len(scripts) == 1:
         _run_one(scripts[0], observe)
@@ -67,7 +72,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
             _check(script, view)
             _go_on(script)
         observe(Report(stage="shading", progress=0.5))
-    if job.request.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
+    if asked.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
         raise UnusableInputError(
             FieldProblem(
                 field="weight_kg",
@@ -77,12 +82,10 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
             )
         )
     _go_on(scripts[0] | {"seconds": 0.0})
-    return PipelineOutput(
-        result=fit_result(job.request), files=result_files([each.image for each in job.pictures])
-    )
+    return with_result_document(fit_result(asked), result_files([each.image for each in pictures]))
 
 
-def _run_one(script: dict[str, Any], observe: Callable[[Report], None]) -> None:
+def _run_one(script: dict[str, Any], observe: Observe) -> None:
     for step, stage in enumerate(STAGES):
         observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
         _work(script.get("seconds", 0.0) / len(STAGES), burn=script.get("burn", False))
@@ -105,13 +108,15 @@ def _script(picture: SentPicture[bytes]) -> dict[str, Any]:
     return json.loads(picture.image.partition(SCRIPT_MARK)[2])
 
 
-def make(product: ProductInput, observe: Callable[[Report], None]) -> Made[ProductResult]:
+def make(_setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
     """Do what the fit's picture said under ``product``; the person is that picture."""
-    script = json.loads(product.files[PERSON].partition(SCRIPT_MARK)[2]).get("product", {})
+    options = ProductRequest.model_validate_json(parts[OPTIONS]).root
+    script = json.loads(parts[PERSON].partition(SCRIPT_MARK)[2]).get("product", {})
     _begin(script)
-    observe(Report(stage=product.options.kind, progress=0.5))
+    observe(Report(stage=options.kind, progress=0.5))
     _go_on(script)
-    return made_product(product)
+    result, files = made_product(options, parts)
+    return {**files, RESULT: result.model_dump_json().encode()}
 
 
 def _begin(script: dict[str, Any]) -> None:
@@ -135,7 +140,7 @@ def _go_on(script: dict[str, Any]) -> None:
         Path(script["note_end"]).touch()
 
 
-def describe(models: Path | None) -> BodyModels:
+def describe(_settings: Settings) -> BodyModels:
     return BodyModels(
         models=tuple(
             BodyModelInfo(
@@ -163,4 +168,4 @@ def _work(seconds: float, *, burn: bool) -> None:
             time.sleep(remaining)
 
 
-TASKS: Final = job_tasks(run, make)
+TASKS: Final[Mapping[str, Task]] = {FIT: fit, PRODUCT: make}

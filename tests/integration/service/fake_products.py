@@ -1,6 +1,7 @@
 """What the simulated pipeline makes of a fit: results and files of some kinds, without numbers."""
 
 from api_schemas.problems import FieldProblem
+from api_schemas.products import AnyProductOptions
 from api_schemas.products.base import BodyColours, ProductResult
 from api_schemas.products.bodies import (
     AnimationOptions,
@@ -14,15 +15,18 @@ from api_schemas.products.bodies import (
     TextureResult,
 )
 from api_schemas.products.documents import CompositionOptions, CompositionResult
-from service.compute.pipeline_port import Made, ProductInput, UnusableInputError
+from service.compute.tasks import Parts, UnusableInputError
 from service.jobs.inputs import CLIP, TEXTURE
 
 LARGEST_FACTOR = 6.0
 """Of a caricature."""
 
 
-def made_product(product: ProductInput) -> Made[ProductResult]:
-    match product.options:
+def made_product(
+    options: AnyProductOptions, parts: Parts
+) -> tuple[ProductResult, dict[str, bytes]]:
+    """What there is to say of the product, and its files."""
+    match options:
         case CaricatureOptions(factor=factor) if factor > LARGEST_FACTOR:
             raise UnusableInputError(
                 FieldProblem(
@@ -42,21 +46,21 @@ def made_product(product: ProductInput) -> Made[ProductResult]:
                 height_m=1.8,
                 shape=(0.0, 1.5 * factor),
             )
-            return Made(result=result, files={"body_caricature.glb": b"glTF"})
+            return result, {"body_caricature.glb": b"glTF"}
         case TextureOptions(colours=colours, size=size):
             own = colours is TextureColours.OWN
-            assert own is (TEXTURE in product.files)
+            assert own is (TEXTURE in parts)
             result = TextureResult(
                 colours=colours,
-                size=len(product.files[TEXTURE]) if own else size,
+                size=len(parts[TEXTURE]) if own else size,
                 seen_share=0.4,
                 mirrored_share=0.1,
                 scale=1.0,
             )
-            return Made(result=result, files={"body_textured.glb": b"glTF", "texture.png": b"PNG"})
+            return result, {"body_textured.glb": b"glTF", "texture.png": b"PNG"}
         case AnimationOptions():
             result = AnimationResult(
-                source=product.files.get(CLIP, b"a walk").decode()[:40],
+                source=parts.get(CLIP, b"a walk").decode()[:40],
                 frames=2,
                 frame_time_s=0.04,
                 morph_targets=1,
@@ -68,15 +72,13 @@ def made_product(product: ProductInput) -> Made[ProductResult]:
                 travelled_m=0.0,
                 warnings=(),
             )
-            return Made(result=result, files={"body_animated.glb": b"glTF"})
+            return result, {"body_animated.glb": b"glTF"}
         case PoseOptions():
-            return Made(
-                result=PoseResult(pose=(), colours=BodyColours.PLAIN),
-                files={"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"},
-            )
+            result = PoseResult(pose=(), colours=BodyColours.PLAIN)
+            return result, {"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"}
         case CompositionOptions():
             result = CompositionResult(bmi=22.0, estimates=())
-            return Made(result=result, files={"composition.csv": b"name,percent\r\n"})
+            return result, {"composition.csv": b"name,percent\r\n"}
         case other:
             message = f"the fake makes no {other.kind}"
             raise NotImplementedError(message)

@@ -12,10 +12,8 @@ from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
 ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.estimates.answers"}
-FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 REAL_PRELOAD = "service.compute.preload"
-FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
 def stop_with_starter() -> None:
@@ -26,9 +24,10 @@ def stop_with_starter() -> None:
 
 def main(estimates: str = "broken", questions_at: str | None = None) -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
-    from service.compute.main import run_worker
+    from service.compute.worker import run_worker
     from service.process.logs import configure_logging
     from service.settings import Settings
+    from tests.integration.service.fake_pipeline import describe
 
     # The processes that a worker starts look for nothing in the current folder.
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
@@ -40,10 +39,9 @@ def main(estimates: str = "broken", questions_at: str | None = None) -> None:
         questions_at=questions_at if estimates in ESTIMATES else None,
         pipeline=FAKE,
         estimates=ESTIMATES.get(estimates),
-        secretless=FAKE_SECRETLESS,
         # Real answers have ten seconds: not enough to compile their kernels.
         preload=REAL_PRELOAD if estimates == "real" else FAKE_PRELOAD,
-        models_command=FAKE_MODELS,
+        read_models=describe,
     )
 
 

@@ -9,32 +9,25 @@ import pytest
 
 from api_schemas.questions import BodyEstimate, BodyRequest
 from fitter.vocabulary.choices import Gender
+from service.compute import lanes
+from service.compute.fork_server import ForkServer
+from service.compute.lanes import QuickLane
+from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.compute.tasks import ChildSetup
 from service.estimates.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
-from service.numerics import quick_lane
-from service.numerics.fork_server import ForkServer
-from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.numerics.quick_lane import QuickLane
-from service.numerics.tasks import ChildSetup
 from tests.integration.service.fake_answers import GATE, GLB
 from tests.integration.service.harness import PATIENCE_S, eventually, is_running
 from tests.process_table import processes_with
 
 SETUP = ChildSetup(
-    name="estimator",
-    tasks="tests.integration.service.fake_answers",
-    max_pixels=1_000_000,
-    models=None,
-    detector=None,
-    memory_mb=4_096,
-    log_level="INFO",
-    log_format="text",
+    name="estimator", tasks="tests.integration.service.fake_answers", max_pixels=1_000_000
 )
 
 
 @pytest.fixture(autouse=True)
 def patience(monkeypatch):
-    monkeypatch.setattr(quick_lane, "READY_WITHIN_S", PATIENCE_S)
-    monkeypatch.setattr(quick_lane, "ANSWER_WITHIN_S", PATIENCE_S)
+    monkeypatch.setattr(lanes, "READY_WITHIN_S", PATIENCE_S)
+    monkeypatch.setattr(lanes, "ANSWER_WITHIN_S", PATIENCE_S)
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +43,7 @@ def server(gate):
         server = ForkServer(SETUP.tasks)
         # One that runs already knows of no gate.
         server.replace_server()
+        server.begin_preloading()
         yield server
 
 
@@ -158,7 +152,7 @@ def test_a_child_killed_between_questions_is_replaced_unnoticed(lane):
 def test_a_question_that_takes_too_long_is_given_up_and_its_child_killed(lane, monkeypatch):
     before = pids(lane)
     with monkeypatch.context() as impatience:
-        impatience.setattr(quick_lane, "ANSWER_WITHIN_S", 0.3)
+        impatience.setattr(lanes, "ANSWER_WITHIN_S", 0.3)
         assert trouble(asked(lane, gate=1.0)) == "estimator-timeout"
     after = pids(lane)
     assert len(before & after) == 1
@@ -169,8 +163,8 @@ def test_as_many_are_answered_at_once_as_there_are_children_and_too_many_are_tur
     lane, gate
 ):
     answers: list[Received] = []
-    capacity = quick_lane.capacity(2)
-    assert capacity == 2 * (1 + quick_lane.MOST_WAITING)
+    capacity = lanes.capacity(2)
+    assert capacity == 2 * (1 + lanes.MOST_WAITING)
     callers = [
         threading.Thread(target=lambda: answers.append(asked(lane, gate=1.0)))
         for _ in range(capacity + 5)

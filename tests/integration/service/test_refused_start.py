@@ -31,7 +31,7 @@ WORKER = ("-m", "service.cli", "worker")
 CHILD_WORKER = ("-m", "service.compute", "ADDRESS")
 KEYS = ("-m", "service.cli", "keys", "list")
 HEALTH = ("-m", "service.cli", "health")
-ESTIMATORS = ("-m", "service.estimates", "ADDRESS")
+ESTIMATORS = ("-m", "service.compute", "questions", "ADDRESS")
 
 ListKeys = Callable[[str], tuple[int, str]]
 """From a database's address to the exit status and the line that is told."""

@@ -12,10 +12,10 @@ import pytest
 
 from api_schemas.questions import BodyRequest
 from fitter.vocabulary.choices import Gender
+from service.compute import lanes
+from service.compute.lanes import SOCKET, Ask, asking
+from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.estimates.questions import BODY, FILE, QUESTION, BodyTask
-from service.numerics import quick_lane
-from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.numerics.quick_lane import SOCKET, Ask, asking
 from service.process.supervisor import SupervisedProcess
 from tests.integration.service.fake_answers import GLB
 from tests.integration.service.harness import PATIENCE_S, REPOSITORY, eventually, is_running
@@ -74,7 +74,7 @@ def test_a_question_is_answered_with_its_file(address: str):
 def test_who_is_patient_waits_a_while_for_an_owner_and_others_do_not(
     address: str, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(quick_lane, "READY_WITHIN_S", 0.3)
+    monkeypatch.setattr(lanes, "READY_WITHIN_S", 0.3)
     began = time.monotonic()
     assert_unavailable(asked(asking(address), patient=False))
     assert_unavailable(asked(asking(address)))

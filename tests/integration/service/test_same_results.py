@@ -6,25 +6,15 @@ from collections.abc import Iterator, Sequence
 import pytest
 
 from api_schemas.products import ProductRequest
-from service.compute.tasks import OPTIONS, PRODUCT, STAGE_SECONDS
+from service.compute.fork_server import Child, ForkServer
+from service.compute.messages import DoneMessage, ProgressMessage, TaskMessage
+from service.compute.tasks import OPTIONS, PRODUCT, ChildSetup
 from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
 from service.jobs.records import FIT
-from service.numerics.fork_server import Child, ForkServer
-from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
-from service.numerics.tasks import ChildSetup
 from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
-SETUP = ChildSetup(
-    name="job",
-    tasks="service.compute.pipeline",
-    max_pixels=MAX_PIXELS,
-    models=None,
-    detector=None,
-    memory_mb=4_096,
-    log_level="INFO",
-    log_format="text",
-)
+SETUP = ChildSetup(name="job", tasks="service.compute.pipeline", max_pixels=MAX_PIXELS)
 
 KINDS = ("composition", "caricature", "pose", "animation")
 
@@ -99,7 +89,6 @@ def _files(process: Child) -> dict[str, bytes]:
         assert received is not None
         if isinstance(received.message, DoneMessage):
             files = dict(received.parts)
-            files.pop(STAGE_SECONDS, None)
             return files | {RESULT: _without_durations(files[RESULT])}
         assert isinstance(received.message, ProgressMessage), received.message
 

@@ -1,15 +1,15 @@
 """``maquette validate`` with the fake pipeline: from a table to a report."""
 
-from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from api_schemas.results import FitResult
 from service.cli import main
 from service.commands.validate import REPORT, validate
-from service.compute.pipeline_port import PipelineInput, PipelineOutput
-from service.jobs.records import Report
+from service.compute.tasks import ChildSetup, Observe, Parts
+from service.jobs.inputs import RESULT
+from service.jobs.records import FIT
 from tests.integration.service import fake_pipeline
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -19,14 +19,18 @@ COLUMNS = (
 )
 
 
-def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    """The fake pipeline, with a measurement that people have a tape for."""
-    output = fake_pipeline.run(job, observe)
-    (measured, *_) = output.result.measurements
-    waist = measured.model_copy(
+def fit(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+    """The fake pipeline's, with a measurement that people have a tape for."""
+    files = fake_pipeline.fit(setup, parts, observe)
+    result = FitResult.model_validate_json(files[RESULT])
+    waist = result.measurements[0].model_copy(
         update={"name": "waist_girth_navel", "value": FOUND, "standard_error": 2.0}
     )
-    return replace(output, result=output.result.model_copy(update={"measurements": (waist,)}))
+    measured = result.model_copy(update={"measurements": (waist,)})
+    return {**files, RESULT: measured.model_dump_json().encode()}
+
+
+TASKS = {FIT: fit}
 
 
 def table(folder: Path, *rows: str, columns: str = COLUMNS) -> Path:

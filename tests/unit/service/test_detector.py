@@ -4,13 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.fit import FitRequest
 from fitter.detection import weights
-from service.compute import pipeline
-from service.compute.models_reading import check_detector
-from service.compute.pipeline_port import PipelineInput, UnusableInputError
+from service.compute.models import check_detector
+from service.compute.pipeline import fit_task
+from service.compute.tasks import OPTIONS, ChildSetup, UnusableInputError
 from service.demo_data.sample import load_sample
-from service.jobs.inputs import SentPicture
+from service.jobs.inputs import SentPicture, named_pictures
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions.submission import detector_is_installed
@@ -24,17 +23,11 @@ def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
 
 
 def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Path):
-    options = FitRequest.model_validate_json(
-        '{"gender": "male", "views": [{"points": {}, "complete_points": true}]}'
-    )
-    job = PipelineInput(
-        request=options,
-        pictures=(SentPicture(load_sample().image, None),),
-        max_pixels=1_000_000,
-        detector=tmp_path,
-    )
+    asked = b'{"gender": "male", "views": [{"points": {}, "complete_points": true}]}'
+    pictures = named_pictures([SentPicture(load_sample().image, None)])
+    setup = ChildSetup(name="job", max_pixels=1_000_000, detector=tmp_path)
     with pytest.raises(UnusableInputError) as caught:
-        pipeline.run(job, lambda _: None)
+        fit_task(setup, {OPTIONS: asked, **pictures}, lambda _: None)
     told = caught.value.error
     assert (told.field, told.code) == ("views.0.points", "detector-not-installed")
     assert "pip install" in told.remedy

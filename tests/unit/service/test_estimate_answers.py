@@ -13,11 +13,10 @@ from api_schemas.points import Point, PointSource
 from api_schemas.questions import BodyRequest, ImageSize, InitialPoseRequest, PointsRequest
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import ProblemError, UnusableInputError
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, initial_pose, jpeg, points
 from service.estimates.questions import BodyTask, InitialPoseTask
-from service.numerics.tasks import ProblemError
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
 
 SAMPLE = FitRequest.model_validate_json(load_sample().request)

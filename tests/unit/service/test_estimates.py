@@ -10,10 +10,10 @@ from fitter.vocabulary.choices import Gender
 from service.api.estimates import Estimates
 from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
+from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE
+from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.compute.tasks import Parts
 from service.estimates.questions import FILE, QUESTION, BodyTask
-from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE
-from service.numerics.tasks import Parts
 from service.process.data_folder import Disk
 from service.representation.formats import OBJ
 from service.submissions.refusal import RefusedError

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from service.numerics.fork_server import ForkServer, end
+from service.compute.fork_server import ForkServer, end
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -69,7 +69,7 @@ def test_a_killed_server_is_started_again(processes):
 DYING = """
 import os, sys, threading
 from pathlib import Path
-from service.numerics import fork_server
+from service.compute import fork_server
 
 fault = Path(sys.argv[1])
 processes = fork_server.ForkServer("dies_if_told")
@@ -78,7 +78,7 @@ def answer(connection):
     connection.send("here")
 
 if __name__ == "__main__":
-    os.environ["FAULT"] = str(fault)
+    os.environ["PYTHON_FAULT"] = str(fault)
     fault.touch()
     processes.begin_preloading()
     for _ in range(2):
@@ -100,7 +100,7 @@ if __name__ == "__main__":
 
 DIES_IF_TOLD = """
 import os
-if os.path.exists(os.environ["FAULT"]):
+if os.path.exists(os.environ["PYTHON_FAULT"]):
     os._exit(1)
 """
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from service.numerics.fork_server import THREAD_LIMITS
-from service.process import caches
-from service.process.caches import keep_kernels, link_kernels
+from service.compute import kernels
+from service.compute.kernels import VARIABLE, keep_kernels, link_kernels, settle_folders
+from service.compute.worker import THREAD_LIMITS
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -78,7 +78,7 @@ def code(tmp_path, monkeypatch) -> Path:
     (folder / "render" / "__pycache__").mkdir(parents=True)
     (folder / "render" / "_kernels.py").touch()
     (folder / "render" / "__pycache__" / "_kernels.one.nbi").write_text("kept")
-    monkeypatch.setattr(caches, "package", lambda: folder)
+    monkeypatch.setattr(kernels, "package", lambda: folder)
     return folder
 
 
@@ -106,9 +106,42 @@ def test_where_another_folder_is_kept_nothing_is_written_beside_the_code(code, t
 def test_folders_are_called_as_numba_calls_them():
     from numba.core.caching import UserProvidedCacheLocator
 
-    for folder, name in caches._folders():
+    for folder, name in kernels._folders():
         source = str(folder / "_kernels.py")
         assert UserProvidedCacheLocator.get_suitable_cache_subpath(source) == name
+
+
+@pytest.fixture
+def work(tmp_path, monkeypatch) -> Path:
+    monkeypatch.setattr(kernels, "make_work_folder", lambda: tmp_path / "work")
+    # Put back at the end, whatever is set meanwhile; and as in a process that has not loaded Numba.
+    monkeypatch.setenv(VARIABLE, os.environ.get(VARIABLE, ""))
+    monkeypatch.delitem(sys.modules, "numba", raising=False)
+    return tmp_path / "work"
+
+
+@pytest.mark.parametrize("writable", [True, False])
+def test_kernels_lie_beside_the_code_or_are_linked_to_in_the_work_folder(
+    work, monkeypatch, writable
+):
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setattr(os, "access", lambda *_: writable)
+    assert settle_folders() == work
+    # Named in any case, so that no file in the current folder does.
+    assert os.environ[VARIABLE] == ("" if writable else str(work / "kernels"))
+    assert (work / "kernels").exists() != writable
+
+
+def test_a_folder_that_is_named_stays_and_so_does_that_of_numba_once_it_is_loaded(
+    work, monkeypatch
+):
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    for named, loaded in (("/elsewhere", False), ("", True)):
+        monkeypatch.setenv(VARIABLE, named)
+        if loaded:
+            monkeypatch.setitem(sys.modules, "numba", sys)
+        settle_folders()
+        assert os.environ[VARIABLE] == named
 
 
 @pytest.mark.slow

@@ -8,8 +8,8 @@ from multiprocessing.connection import Connection
 import pytest
 from pydantic import ValidationError
 
-from service.numerics import messages
-from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage, receive, send
+from service.compute import messages
+from service.compute.messages import DoneMessage, ProgressMessage, TaskMessage, receive, send
 
 Ends = tuple[Connection, Connection]
 

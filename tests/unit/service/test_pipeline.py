@@ -6,14 +6,13 @@ from typing import Any
 
 import pytest
 
-from api_schemas import fit as wire
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.request import Click, FitRequest, KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Cues, Gender, OptimizerKind, ViewKind
 from service.compute import pipeline
-from service.compute.pipeline_port import PipelineInput, UnusableInputError
-from service.jobs.inputs import SentPicture
+from service.compute.tasks import OPTIONS, ChildSetup, Observe, UnusableInputError
+from service.jobs.inputs import SentPicture, named_pictures, pictures_of
 from service.jobs.records import Report
 
 PERSON: dict[str, Any] = {
@@ -33,13 +32,15 @@ SIDE: dict[str, Any] = {
 }
 
 
-def job(*, pictures: int = 2) -> PipelineInput:
-    words = PERSON | {"views": [FRONT, SIDE][:pictures]}
-    return PipelineInput(
-        request=wire.FitRequest.model_validate_json(json.dumps(words)),
-        pictures=tuple(SentPicture(bytes([number]), None) for number in range(pictures)),
-        max_pixels=7,
-    )
+SETUP = ChildSetup(name="job", max_pixels=7)
+NAMED = named_pictures([SentPicture(bytes([number]), None) for number in range(2)])
+
+
+def ended_fit(*, pictures: int = 2, observe: Observe = lambda _: None) -> None:
+    asked = PERSON | {"views": [FRONT, SIDE][:pictures]}
+    # As they come from storage: in no order.
+    files = dict(reversed(list(NAMED.items())[:pictures]))
+    pipeline.fit_task(SETUP, {OPTIONS: json.dumps(asked).encode(), **files}, observe)
 
 
 class EndedError(Exception):
@@ -56,7 +57,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, fault: Exception, *, pictures: int) -
 
     monkeypatch.setattr(pipeline, "fit", fit)
     with pytest.raises((EndedError, UnusableInputError)):
-        pipeline.run(job(pictures=pictures), lambda _: None)
+        ended_fit(pictures=pictures)
     (request,) = requests
     return request
 
@@ -85,26 +86,26 @@ def test_of_every_picture_the_fitter_is_told_what_was_said_of_it(monkeypatch):
     assert (front.focal_length_35mm, side.focal_length_35mm) == (None, 26.0)
 
 
-def told(monkeypatch: pytest.MonkeyPatch, fault: Exception, given: PipelineInput) -> Any:
+def told(monkeypatch: pytest.MonkeyPatch, fault: Exception) -> Any:
     def fit(*_: object, **__: object) -> None:
         raise fault
 
     monkeypatch.setattr(pipeline, "fit", fit)
     with pytest.raises(UnusableInputError) as caught:
-        pipeline.run(given, lambda _: None)
+        ended_fit()
     return caught.value.error
 
 
 def test_a_fault_keeps_its_words(monkeypatch):
     fault = InvalidInputError(code="a-code", field="views.1.image", reason="Why.", remedy="What.")
-    error = told(monkeypatch, fault, job())
+    error = told(monkeypatch, fault)
     assert (error.field, error.code) == ("views.1.image", "a-code")
     assert (error.reason, error.remedy) == ("Why.", "What.")
 
 
 def test_a_detector_that_is_missing_is_told_of_the_first_picture_that_needs_it(monkeypatch):
     fault = DetectorUnavailableError(reason="None.", remedy="Click.")
-    error = told(monkeypatch, fault, job())
+    error = told(monkeypatch, fault)
     assert (error.field, error.code) == ("views.1.points", "detector-not-installed")
 
 
@@ -118,8 +119,19 @@ def test_progress_names_the_view_it_is_of(monkeypatch):
 
     monkeypatch.setattr(pipeline, "fit", fit)
     with pytest.raises(EndedError):
-        pipeline.run(job(), reports.append)
+        ended_fit(observe=reports.append)
     assert reports == [
         Report(view=1, stage="segmentation", progress=0.4),
         Report(stage="shading", progress=0.9, energies={"edges": 2.0}),
     ]
+
+
+def test_names_of_pictures_say_of_which_view_they_are():
+    one, other = SentPicture(b"f", None), SentPicture(b"s", b"m")
+    assert named_pictures([one, other]) == {
+        "views/0/image": b"f",
+        "views/1/image": b"s",
+        "views/1/mask": b"m",
+    }
+    for pictures in ([other], [one, other], [one] * 6):
+        assert pictures_of(named_pictures(pictures)) == tuple(pictures)

@@ -8,8 +8,8 @@ import pytest
 
 from api_schemas.products import AnyProductOptions, AnyProductResult, ProductRequest, product_id
 from api_schemas.products.base import ProductKind
-from service.compute.pipeline_port import Made
 from service.compute.products import maker_of
+from service.compute.products.finished_fit import Made
 
 
 def told_apart(union: object) -> dict[str, Any]:
@@ -54,7 +54,7 @@ def test_an_id_is_of_the_options_as_understood_and_of_the_part():
 def test_a_process_for_fits_has_loaded_nothing_that_makes_products():
     """Every process forked for a fit would carry more along."""
     code = (
-        "import sys, service.numerics.child, service.compute.pipeline;"
+        "import sys, service.compute.child, service.compute.pipeline;"
         "print([each for each in sys.modules if each.startswith('service.compute.products.')])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)

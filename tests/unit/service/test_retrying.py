@@ -2,7 +2,7 @@ import pytest
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.compute.job_runner import retry_while_storage_is_away
+from service.compute.runner import retry_while_storage_is_away
 from service.jobs.blobs import BlobsUnavailableError
 from service.jobs.database import retry_while_database_is_away
 from service.process import retrying

@@ -5,7 +5,7 @@ import sys
 
 WAITS_AND_IS_SIGNALLED = """
 import signal, sys
-from service.process.stop_request import StopRequest
+from service.compute.worker import StopRequest
 
 def stopped_at(step):
     # A wait during whose line number `step` a signal comes; or before which it came.
@@ -39,7 +39,7 @@ def test_a_signal_at_any_line_of_the_wait_ends_it():
 
 ASLEEP_BEFORE_THE_HANDLER_RUNS = """
 import _thread, signal, threading
-from service.process.stop_request import StopRequest
+from service.compute.worker import StopRequest
 
 stop = StopRequest()
 signal.signal(signal.SIGTERM, lambda *_: stop.ask())

@@ -180,7 +180,7 @@ def test_what_the_caller_leaves_open_stays_open():
 
 
 def test_every_point_is_a_landmark_of_the_models():
-    from service.compute.model_reader import describe
+    from service.compute.models import describe
 
     for model in describe(None).models:
         assert set(POINT_NAMES) <= set(model.landmarks)

@@ -7,16 +7,18 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
+from pydantic import TypeAdapter
 
-from api_schemas.products import ProductRequest
+from api_schemas.products import AnyProductResult
 from api_schemas.products.base import ProductResult
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Gender
-from service.compute.pipeline import make
-from service.compute.pipeline_port import Made, ProductInput
+from service.compute.pipeline import product_task
+from service.compute.products.finished_fit import Made
+from service.compute.tasks import OPTIONS, ChildSetup
 from service.jobs.inputs import BODY, IMAGE, OVERLAY, PERSON, RESULT, SEGMENTATION, of_view
 from tests.unit.service.fit_results import fit_result
 
@@ -58,12 +60,16 @@ FILES = {
 }
 
 
+RESULTS = TypeAdapter(AnyProductResult)
+
+
 def made(*, files: dict[str, bytes] | None = None, **request: object) -> Made[ProductResult]:
-    options = ProductRequest.model_validate_json(json.dumps(request)).root
     stages: list[str] = []
-    product = make(
-        ProductInput(options=options, files=FILES | (files or {}), max_pixels=1_000_000),
+    parts = product_task(
+        ChildSetup(name="job", max_pixels=1_000_000),
+        {**FILES, **(files or {}), OPTIONS: json.dumps(request).encode()},
         lambda report: stages.append(report.stage),
     )
-    assert set(stages) == {options.kind}
-    return product
+    result = RESULTS.validate_json(parts[RESULT])
+    assert set(stages) == {result.kind}
+    return Made(result=result, files={name: parts[name] for name in parts if name != RESULT})

@@ -7,7 +7,7 @@ import pytest
 
 from api_schemas.products.bodies import NamedMotion
 from fitter.applications.named_motions import NAMED_MOTIONS
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import UnusableInputError
 from service.jobs.inputs import CLIP
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.products.samples import made

@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import UnusableInputError
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.products.samples import made
 

@@ -10,7 +10,7 @@ from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import NamedPose
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.body.storage import load_body_model, packaged_model_path
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import UnusableInputError
 from service.jobs.inputs import SEGMENTATION, of_view
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.products.samples import made, png

@@ -10,7 +10,7 @@ from api_schemas.products.documents import EXAMPLE, ChartError, columns_of, read
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import UnusableInputError
 from service.jobs.inputs import CHART, PERSON, RESULT
 from tests.unit.service.fit_results import fit_result
 from tests.unit.service.products.samples import made, person

@@ -13,7 +13,7 @@ from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import Light, Reflectance
 from fitter.vocabulary.choices import LightKind
-from service.compute.pipeline_port import UnusableInputError
+from service.compute.tasks import UnusableInputError
 from service.jobs.inputs import PERSON, TEXTURE
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.products.samples import made, person, png

@@ -11,16 +11,16 @@ from collections.abc import Callable, Iterable, Iterator
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
-from pathlib import Path
 from typing import Final
 
-from service.numerics import child
-from service.numerics.messages import Message, Received, receive, send
-from service.numerics.tasks import ChildSetup
-from service.process.caches import settle_folders
-from service.process.supervisor import SAFE_PATH_VARIABLE
+from service.compute import child
+from service.compute.messages import Message, Received, receive, send
+from service.compute.tasks import ChildSetup
 
 LOG: Final = logging.getLogger(__name__)
+
+SECRETLESS: Final = "service.compute.secretless"
+"""The module that the server imports before any other."""
 
 DEATHS: Final = 5
 """How often in a row the server may die before it is taken to be unable to fork at all."""
@@ -30,27 +30,9 @@ DOUBLINGS: Final = 8
 """Pauses between two tries to start the server: up to 26 s, as one that dies takes seconds each
 time to load."""
 
-
 CRASHES: Final = 2
-"""In a row, after which the server is replaced; a job has three attempts by default."""
-
-THREAD_LIMITS: Final = (
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "NUMBA_NUM_THREADS",
-    "OPENCV_FOR_THREADS_NUM",
-)
-"""One thread a fit, fits side by side: threads within a fit cost more than they bring."""
-
-
-def settle_environment() -> Path:
-    """Settle what the server is to inherit, before it is started; return the work folder."""
-    for variable in THREAD_LIMITS:
-        os.environ.setdefault(variable, "1")
-    # The fork server and its resource tracker are started by `python -c`.
-    os.environ[SAFE_PATH_VARIABLE] = "1"
-    return settle_folders()
+"""Children that crash in a row, after which the server is replaced; a job has three attempts by
+default."""
 
 
 class NoProcessError(Exception):
@@ -58,7 +40,7 @@ class NoProcessError(Exception):
 
 
 class Child:
-    """A process that does tasks (:mod:`service.numerics.child`)."""
+    """A process that does tasks (:mod:`service.compute.child`)."""
 
     def __init__(self, connection: Connection, process: ForkServerProcess) -> None:
         self._connection = connection
@@ -83,7 +65,7 @@ class Child:
         return self._process.is_alive() and not self._connection.poll()
 
     def exit_code(self, within_s: float) -> int | None:
-        """How it ended, or None if it does not end in time."""
+        """Its exit code, or None if it does not end in time."""
         self._process.join(within_s)
         return self._process.exitcode
 
@@ -118,9 +100,10 @@ class ForkServer:
 
     def __init__(self, *preload: str) -> None:
         self._context: ForkServerContext = get_context("forkserver")
-        self._context.set_forkserver_preload(list(preload))
+        self._context.set_forkserver_preload([SECRETLESS, *preload])
         self._lock = threading.Lock()
         self._deaths = 0
+        self._crashes = 0
         self._has_forked = threading.Event()
 
     def begin_preloading(self) -> None:
@@ -131,9 +114,9 @@ class ForkServer:
         forkserver.ensure_running()
         threading.Thread(target=self._keep_running, name="fork server", daemon=True).start()
 
-    def is_able(self) -> bool:
-        """Say whether the server has forked the process that it was asked for last."""
-        return self._has_forked.is_set()
+    def is_able(self, within_s: float = 0.0) -> bool:
+        """Say whether the server has forked the process that it was asked for last, or soon has."""
+        return self._has_forked.wait(within_s)
 
     def start(
         self, target: Callable[..., None], *arguments: object
@@ -158,6 +141,20 @@ class ForkServer:
     def start_child(self, setup: ChildSetup) -> Child:
         """Start a child that waits for tasks; raises as :meth:`start` does."""
         return Child(*self.start(child.work, setup))
+
+    def note_end(self, *, crashed: bool) -> None:
+        """Note how a child ended its task: when children crash in a row the server is replaced.
+
+        What they share may be damaged, as a library that was mapped from a file truncated since.
+        """
+        with self._lock:
+            self._crashes = self._crashes + 1 if crashed else 0
+            is_damaged = self._crashes >= CRASHES
+            if is_damaged:
+                self._crashes = 0
+        if is_damaged:
+            LOG.warning("Processes crash in a row: the fork server is replaced.")
+            self.replace_server()
 
     def replace_server(self) -> None:
         """End the server: what it has read may have been damaged since. Another one takes over."""
@@ -210,7 +207,7 @@ class ForkServer:
             LOG.warning("The fork server has ended; starting another.")
 
     def _server_number(self) -> int:
-        """The server's process number, as a process knows it that is forked to tell it."""
+        """The server's process number, told by a process that is forked to tell it."""
         connection, process = self.start(_tell_parent)
         try:
             return int(connection.recv())
@@ -241,7 +238,7 @@ def _pause_s(deaths: int) -> float:
 
 
 def _tell_parent(connection: Connection) -> None:
-    """What a process does that is forked only to see that it can be."""
+    """Work of a process that is forked only to see that it can be."""
     # The worker may have ended meanwhile.
     with contextlib.suppress(OSError):
         connection.send(os.getppid())
@@ -253,22 +250,3 @@ def end(connection: Connection, process: ForkServerProcess) -> None:
     process.kill()
     process.join()
     process.close()
-
-
-class CrashesInARow:
-    """Replaces the fork server when children crash in a row: what it shares may be damaged.
-
-    A file that it has mapped may have been truncated since, over which every child would die.
-    """
-
-    def __init__(self, server: ForkServer) -> None:
-        self._server = server
-        self._crashes = 0
-
-    def note(self, *, crashed: bool) -> None:
-        """Note how a child ended its task."""
-        self._crashes = self._crashes + 1 if crashed else 0
-        if self._crashes >= CRASHES:
-            LOG.warning("Processes crash in a row: the fork server is replaced.")
-            self._crashes = 0
-            self._server.replace_server()

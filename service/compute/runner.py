@@ -6,25 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Final, ParamSpec, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
+from api_schemas.problems import Problem, problem
 from api_schemas.results import ResultFile
-from service.compute.endings import (
-    ending_by,
-    fault,
-    input_gone,
-    no_process,
-    no_storage,
-    out_of_memory,
-    too_slow,
-)
-from service.compute.files import describe_file
-from service.compute.tasks import OPTIONS, PRODUCT, SECONDS, STAGE_SECONDS
-from service.jobs.attempts import Attempt
-from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.jobs.records import FIT, AttemptResult, Directive, Ending, JobRecord, Report
-from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
-from service.numerics.messages import (
+from service.compute.fork_server import Child, ForkServer, NoProcessError
+from service.compute.messages import (
     DoneMessage,
     FaultMessage,
     ProblemMessage,
@@ -32,7 +19,18 @@ from service.numerics.messages import (
     Received,
     TaskMessage,
 )
-from service.numerics.tasks import ChildSetup
+from service.compute.tasks import OPTIONS, PRODUCT, ChildSetup, Parts, describe_file
+from service.jobs.attempts import Attempt
+from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.inputs import RESULT
+from service.jobs.records import (
+    FIT,
+    AttemptResult,
+    Directive,
+    Ending,
+    JobRecord,
+    Report,
+)
 from service.process.logs import current_log_context
 from service.process.retrying import retry_with_pauses
 from service.settings import Settings
@@ -51,10 +49,60 @@ WATCHDOG_S: Final = 1.0
 EXIT_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
 
+STORED_EVERY_S: Final = 0.2
+"""The shortest time between two stored reports of one stage."""
+
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
     Directive.SUPERSEDED: AttemptResult(ending=Ending.SUPERSEDED),
 }
+
+FAULT: Final = problem(
+    "fit-failed",
+    detail="An unexpected fault ended the job.",
+    remedy="Report it with the job's id; other jobs are not affected.",
+)
+OUT_OF_MEMORY: Final = problem(
+    "fit-failed",
+    code="out-of-memory",
+    detail="The job needed more memory than one job may have.",
+    remedy="Send a smaller picture, or ask for less at once.",
+)
+INPUT_GONE: Final = problem(
+    "fit-failed",
+    code="input-gone",
+    detail="What the job was made of is gone.",
+    remedy="Post it again.",
+)
+"""The job was erased during the attempt, or somebody emptied the storage by hand."""
+
+NO_PROCESS: Final = problem(
+    "fit-failed",
+    code="no-process",
+    detail="No process could be started for the job.",
+    remedy="Post it again once the service reports itself ready.",
+)
+"""The machine had no room for a process for longer than the worker waits."""
+
+
+def no_storage(error: BlobsUnavailableError) -> Problem:
+    """The problem of storage that was full or away for longer than the worker waits."""
+    full = isinstance(error, StorageFullError)
+    return problem(
+        "fit-failed",
+        code="storage-full" if full else "storage-unavailable",
+        detail="The result could not be stored.",
+        remedy="Post it again once the service reports itself ready.",
+    )
+
+
+def too_slow(limit_s: float) -> Problem:
+    """The problem of a job that exceeded its time limit."""
+    return problem(
+        "time-limit-exceeded",
+        detail=f"The job was stopped after {limit_s:g} s.",
+        remedy="Send a smaller picture, choose the optimizer gauss_newton, or ask for less.",
+    )
 
 
 class JobRunner:
@@ -63,30 +111,29 @@ class JobRunner:
     def __init__(
         self, settings: Settings, blobs: BlobStore, server: ForkServer, setup: ChildSetup
     ) -> None:
-        self._settings = settings
+        self._time_limit_s = settings.job_time_limit_s
         self._blobs = blobs
         self._server = server
         self._setup = setup
-        self._crashes = CrashesInARow(server)
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
         try:
             result = self._run(attempt)
-            self._crashes.note(crashed=result.ending is Ending.CRASHED)
+            self._server.note_end(crashed=result.ending is Ending.CRASHED)
             return result
         except BlobMissingError:
             LOG.warning("The input of the job is gone.")
-            return AttemptResult(ending=Ending.FAILED, problem=input_gone())
+            return _failed(INPUT_GONE)
         except BlobsUnavailableError as error:
             LOG.error("The storage did not come back (%s).", error)
-            return AttemptResult(ending=Ending.FAILED, problem=no_storage(error))
+            return _failed(no_storage(error))
         except NoProcessError as error:
             LOG.error("No process can be started (%s).", error)
-            return AttemptResult(ending=Ending.FAILED, problem=no_process())
+            return _failed(NO_PROCESS)
 
     def _run(self, attempt: Attempt) -> AttemptResult:
-        deadline = time.monotonic() + self._settings.job_time_limit_s
+        deadline = time.monotonic() + self._time_limit_s
         child = self._server.start_child(self._setup)
         try:
             computed = self._compute(child, attempt, deadline)
@@ -108,9 +155,7 @@ class JobRunner:
         self, child: Child, attempt: Attempt, deadline: float
     ) -> "_Computed | AttemptResult":
         try:
-            with (
-                child.killed_in_time(deadline - time.monotonic() + WATCHDOG_S),
-            ):
+            with child.killed_in_time(deadline - time.monotonic() + WATCHDOG_S):
                 self._give(child, attempt.job)
                 return self._follow(attempt, child, deadline=deadline)
         except (EOFError, OSError, ValidationError):
@@ -132,9 +177,7 @@ class JobRunner:
         child.give(task, (read(job.scope, part.digest) for part in stored.values()))
 
     def _timed_out(self) -> AttemptResult:
-        return AttemptResult(
-            ending=Ending.TIMED_OUT, problem=too_slow(self._settings.job_time_limit_s)
-        )
+        return AttemptResult(ending=Ending.TIMED_OUT, problem=too_slow(self._time_limit_s))
 
     def _follow(
         self, attempt: Attempt, child: Child, *, deadline: float
@@ -158,7 +201,7 @@ class JobRunner:
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
 
-    def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[ResultFile, ...]:
+    def _store(self, scope: str, files: Parts) -> tuple[ResultFile, ...]:
         put_all = retry_while_storage_is_away(self._blobs.put_all)
         digests = put_all(scope, list(files.values()))
         return tuple(
@@ -171,22 +214,32 @@ class JobRunner:
 class _Computed:
     """A result that has yet to be stored."""
 
-    files: Mapping[str, bytes]
+    files: Parts
     stage_seconds: Mapping[str, float]
+
+
+class _Timed(BaseModel):
+    """The part of a result's document that says how long each stage took; products have none."""
+
+    stage_seconds: dict[str, float] = {}
+
+
+def _failed(reason: Problem) -> AttemptResult:
+    return AttemptResult(ending=Ending.FAILED, problem=reason)
 
 
 def _ended(received: Received) -> _Computed | AttemptResult:
     match received.message:
         case DoneMessage():
-            files = dict(received.parts)
-            seconds = SECONDS.validate_json(files.pop(STAGE_SECONDS, b"{}"))
-            return _Computed(files=files, stage_seconds=seconds)
+            files = received.parts
+            timed = _Timed.model_validate_json(files.get(RESULT, b""))
+            return _Computed(files=files, stage_seconds=timed.stage_seconds)
         case ProblemMessage(problem=reason):
-            return AttemptResult(ending=ending_by(reason), problem=reason)
+            return _failed(reason)
         case FaultMessage(out_of_memory=True):
-            return AttemptResult(ending=Ending.FAILED, problem=out_of_memory())
+            return _failed(OUT_OF_MEMORY)
         case FaultMessage():
-            return AttemptResult(ending=Ending.FAILED, problem=fault())
+            return _failed(FAULT)
         case _:
             message = f"a child sent a message of kind {received.message.kind}"
             raise OSError(message)
@@ -195,10 +248,6 @@ def _ended(received: Received) -> _Computed | AttemptResult:
 def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
     """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
     return retry_with_pauses(BlobsUnavailableError, "storage")(operation)
-
-
-INTERVAL_S: Final = 0.2
-"""The shortest time between two stored reports of one stage."""
 
 
 class ThrottledProgress:
@@ -233,5 +282,5 @@ class ThrottledProgress:
             )
         )
         self._latest = None
-        self._due = now + INTERVAL_S
+        self._due = now + STORED_EVERY_S
         return directive

@@ -7,8 +7,8 @@ from PIL import Image
 
 from fitter.observation.exif import read_exif
 from fitter.observation.heif import decodes_heif, ready_decoder
-from service.numerics.header_lane import ANSWER, HEADER, PICTURE, HeaderAnswer
-from service.numerics.tasks import ChildSetup, Observe, Parts, Task
+from service.compute.lanes import ANSWER, HEADER, PICTURE, HeaderAnswer
+from service.compute.tasks import ChildSetup, Observe, Parts, Task
 from service.submissions.image_header import DamagedImageError, read_image_header
 
 LOADED: Final = (Image.init(), read_exif)

@@ -1,26 +1,31 @@
-"""The quick lane: questions that are answered within seconds, by children that are kept ready.
+"""Lanes: questions that are answered within seconds, by children that are kept ready.
+
+One answers the API's questions in the process that owns the fork server of jobs, asked over a
+socket; the other reads headers of pictures for the API's process, which holds secrets and decodes
+nothing.
 
 Each child answers one question at a time. One that dies over a question, or takes too long, fails
-that question alone and is replaced. All troubles are answers too, as problems. The API asks in
-another process, over a socket.
+that question alone and is replaced. All troubles are answers too, as problems.
 """
 
 import contextlib
 import logging
+import os
 import queue
 import threading
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import Final
 
 from pydantic import ValidationError
 
+from api_schemas.base import WireModel
 from api_schemas.problems import Problem, problem
-from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
-from service.numerics.messages import (
+from service.compute.fork_server import Child, ForkServer, NoProcessError
+from service.compute.messages import (
+    DoneMessage,
     FaultMessage,
     ProblemMessage,
     ProgressMessage,
@@ -29,8 +34,12 @@ from service.numerics.messages import (
     receive,
     send,
 )
-from service.numerics.tasks import ChildSetup, Parts
+from service.compute.tasks import ChildSetup, Parts, child_setup
 from service.process.logs import log_context
+from service.process.supervisor import SAFE_PATH_VARIABLE
+from service.settings import Settings
+from service.submissions.image_header import DamagedImageError, ImageHeader, ReadHeader, kind_of
+from service.submissions.refusal import RefusedError
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -95,10 +104,9 @@ class QuickLane:
         ready_within_s: float = READY_WITHIN_S,
     ) -> None:
         self._ready_within_s = ready_within_s
-        crashes = CrashesInARow(server)
         self._idle: queue.SimpleQueue[_Place] = queue.SimpleQueue()
         for _ in range(children):
-            self._idle.put(_Place(server, setup, crashes))
+            self._idle.put(_Place(server, setup))
         self._room = threading.BoundedSemaphore(capacity(children))
 
     def answer(self, question: TaskMessage, parts: Parts) -> Received:
@@ -132,18 +140,20 @@ class QuickLane:
 
 
 class _Place:
-    """Where one question is answered at a time; not thread-safe."""
+    """A place where one question is answered at a time; not thread-safe."""
 
-    def __init__(self, server: ForkServer, setup: ChildSetup, crashes: CrashesInARow) -> None:
+    def __init__(self, server: ForkServer, setup: ChildSetup) -> None:
         self._server = server
         self._setup = setup
-        self._crashes = crashes
-        self._child = self._started()
+        self._child: Child | None = None
 
     def answer(self, question: TaskMessage, parts: Parts, *, ready_within_s: float) -> Received:
         try:
             child = self._ready(ready_within_s)
-        except (TimeoutError, NoProcessError):
+        except NoProcessError as error:
+            LOG.error("No process that answers can be forked (%s).", error)
+            return _told(UNAVAILABLE)
+        if child is None:
             return _told(UNAVAILABLE)
         deadline = time.monotonic() + ANSWER_WITHIN_S
         try:
@@ -151,46 +161,30 @@ class _Place:
                 child.give(question, parts.values())
                 answer = _final(child)
         except (EOFError, OSError, ValidationError):
-            return _told(self._replace(child, timed_out=time.monotonic() >= deadline))
-        self._crashes.note(crashed=False)
+            return _told(self._end(child, timed_out=time.monotonic() >= deadline))
+        self._server.note_end(crashed=False)
         return _told(FAILED) if isinstance(answer.message, FaultMessage) else answer
 
-    def _ready(self, within_s: float) -> Child:
-        if self._child.done():
-            try:
-                if (child := self._child.result()).is_waiting():
-                    return child
-                child.end()
-                LOG.error("An estimator died; starting another.")
-            except NoProcessError:
-                pass
-            self._child = self._started()
-        return self._child.result(within_s)
+    def _ready(self, within_s: float) -> Child | None:
+        """The child, or another where it has died; None while the server is loading."""
+        if self._child is not None and not self._child.is_waiting():
+            LOG.error("An estimator died; starting another.")
+            self._child.end()
+            self._child = None
+        if self._child is None and self._server.is_able(within_s):
+            self._child = self._server.start_child(self._setup)
+        return self._child
 
-    def _replace(self, child: Child, *, timed_out: bool) -> Problem:
+    def _end(self, child: Child, *, timed_out: bool) -> Problem:
         code = child.exit_code(EXIT_S)
         child.end()
+        self._child = None
         if timed_out:
             LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
-        else:
-            LOG.error("An estimator died over a question, exit code %s.", code)
-            self._crashes.note(crashed=True)
-        self._child = self._started()
-        return TIMED_OUT if timed_out else FAILED
-
-    def _started(self) -> "Future[Child]":
-        """Start a child in a thread, as the fork server may be loading for minutes."""
-        starting: Future[Child] = Future()
-
-        def start() -> None:
-            try:
-                starting.set_result(self._server.start_child(self._setup))
-            except NoProcessError as error:
-                LOG.error("No estimator can be forked (%s).", error)
-                starting.set_exception(error)
-
-        threading.Thread(target=start, name="estimator", daemon=True).start()
-        return starting
+            return TIMED_OUT
+        LOG.error("An estimator died over a question, exit code %s.", code)
+        self._server.note_end(crashed=True)
+        return FAILED
 
 
 def _final(child: Child) -> Received:
@@ -260,3 +254,62 @@ def asking(address: str) -> Ask:
                 time.sleep(LOOK_S)
 
     return ask
+
+
+HEADERS: Final = "service.compute.headers"
+
+HEADER_CHILDREN: Final = 2
+"""A header takes some milliseconds; more requests wait than the API has threads."""
+
+HEADERS_READY_WITHIN_S: Final = 60.0
+"""How long a picture waits for a child: they load in a second or two, and on a busy machine in
+more. The API takes requests meanwhile."""
+
+HEADER: Final = "header"
+PICTURE: Final = "picture"
+ANSWER: Final = "answer"
+
+
+class HeaderAnswer(WireModel):
+    """The header, or how the picture is damaged."""
+
+    header: ImageHeader | None = None
+    damage: str = ""
+
+
+def header_lane(settings: Settings) -> ReadHeader:
+    """Start the children, and return what has a header read by one of them.
+
+    It raises :class:`RefusedError` too, where none of them answers in time.
+    """
+    os.environ[SAFE_PATH_VARIABLE] = "1"
+    server = ForkServer(HEADERS)
+    server.begin_preloading()
+    setup = child_setup(settings, name="header", tasks=HEADERS)
+    lane = QuickLane(server, setup, children=HEADER_CHILDREN, ready_within_s=HEADERS_READY_WITHIN_S)
+
+    def ask(content: bytes) -> Received:
+        return lane.answer(TaskMessage(task=HEADER, parts=(PICTURE,)), {PICTURE: content})
+
+    def read(content: bytes) -> ImageHeader:
+        # What can be told from the first bytes needs no child.
+        kind_of(content)
+        answer = ask(content)
+        if _problem_in(answer) == FAILED:
+            # Something else may have killed the child: only a second one tells of the picture.
+            answer = ask(content)
+        if isinstance(answer.message, DoneMessage):
+            said = HeaderAnswer.model_validate_json(answer.parts[ANSWER])
+            if said.header is not None:
+                return said.header
+            raise DamagedImageError(said.damage)
+        if (told := _problem_in(answer)) in (UNAVAILABLE, TIMED_OUT):
+            raise RefusedError(told)
+        message = "its header cannot be read"
+        raise DamagedImageError(message)
+
+    return read
+
+
+def _problem_in(answer: Received) -> Problem | None:
+    return answer.message.problem if isinstance(answer.message, ProblemMessage) else None

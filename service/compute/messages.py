@@ -14,7 +14,7 @@ from pydantic import Field, TypeAdapter
 
 from api_schemas.base import WireModel
 from api_schemas.problems import Problem
-from service.numerics.tasks import Parts
+from service.compute.tasks import Parts
 
 LARGEST_PART_BYTES: Final = 256 * 1024 * 1024
 """A child that sends more has been taken over by its picture."""

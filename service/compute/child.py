@@ -12,15 +12,14 @@ import logging
 import os
 import resource
 import signal
+import tempfile
 import threading
-import time
 from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Final
 
-from service.jobs.records import Report
-from service.numerics.messages import (
+from service.compute.messages import (
     DoneMessage,
     FaultMessage,
     Message,
@@ -31,16 +30,15 @@ from service.numerics.messages import (
     receive,
     send,
 )
-from service.numerics.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
+from service.compute.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
+from service.jobs.records import Report
+from service.process.confinement import write_only_below
 from service.process.logs import configure_logging, log_context
 
 LOG: Final = logging.getLogger(__name__)
 
 OOM_SCORE: Final = 500
 """When memory runs out, the kernel is to take a child and not its owner."""
-
-TOLD_EVERY_S: Final = 0.05
-"""A search reports every few milliseconds, and the owner is woken by each."""
 
 
 def work(setup: ChildSetup, connection: Connection) -> None:
@@ -52,6 +50,7 @@ def work(setup: ChildSetup, connection: Connection) -> None:
     # A crash in a decoder leaves the places it passed through, and nothing of what it read.
     faulthandler.enable()
     _limit(setup)
+    write_only_below(tempfile.gettempdir())
     given = _follow_owner(connection)
     while True:
         # Nothing here holds a task on to the next: it goes out of scope with the call.
@@ -80,24 +79,20 @@ def _done(task: str, given: Parts, setup: ChildSetup, observe: Observe) -> tuple
 
 
 def _telling(connection: Connection) -> Observe:
-    """Tell the owner of progress: of a new stage or view at once, else now and then."""
-    told: tuple[str, int | None] | None = None
-    due = 0.0
+    """Tell the owner of progress."""
 
     def observe(report: Report) -> None:
-        nonlocal told, due
-        now, news = time.monotonic(), (report.stage, report.view)
-        if now >= due or news != told:
-            told, due = news, now + TOLD_EVERY_S
-            send(connection, _progress(report))
+        send(
+            connection,
+            ProgressMessage(
+                stage=report.stage,
+                progress=report.progress,
+                energies=report.energies,
+                view=report.view,
+            ),
+        )
 
     return observe
-
-
-def _progress(report: Report) -> ProgressMessage:
-    return ProgressMessage(
-        stage=report.stage, progress=report.progress, energies=report.energies, view=report.view
-    )
 
 
 def _follow_owner(connection: Connection) -> SimpleQueue[Received]:
