@@ -126,12 +126,6 @@ _TYPES: Final = (
         description="The body is of another kind, or a picture is not JPEG, PNG, WebP or HEIC.",
     ),
     ProblemType(
-        slug="range-not-satisfiable",
-        title="The requested range lies outside the file",
-        status=416,
-        description="The Range header asks for bytes the file does not have.",
-    ),
-    ProblemType(
         slug="invalid-request",
         title="The request is not valid",
         status=422,

@@ -1,46 +1,45 @@
-"""The application: resources, problems, limits."""
+"""The application, its resources in its layers, and the server that runs it.
+
+Uvicorn limits neither how long the head of a request takes nor how many connections there are: the
+proxy in front of it does (``service/docs/operate/proxy.md``). The application limits what uvicorn
+hands it (:mod:`service.api.limits`).
+"""
 
 import asyncio
 import json
 import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
+from types import FrameType
 from typing import Any, Final
 
+import uvicorn
 from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
+from starlette.middleware.gzip import GZipMiddleware
+from starlette.types import ASGIApp
 
 from service.api import (
-    bodies,
-    documentation,
     fits,
     health,
     images,
-    initial_poses,
     openapi,
-    page,
-    picture_questions,
+    pages,
     problems,
     products,
+    questions,
     submissions,
 )
-from service.api.authentication import Authentication
-from service.api.body_limits import BodyLimit, BodyTimeLimit, MessageFraming
-from service.api.compression import Compression
+from service.api.auth import Authentication, LocalGuard
 from service.api.context import Parts
-from service.api.credentials import KeyUses, KnownKeys
-from service.api.estimates import Estimates
-from service.api.event_feed import EventFeed
-from service.api.local_guard import LocalGuard
-from service.api.metrics import ServiceMetrics
-from service.api.observation import Observation
+from service.api.estimators import Estimators
+from service.api.events import EventFeed
+from service.api.headers import COMPRESSED_FROM_BYTES, LEFT_AS_THEY_ARE, SecurityHeaders
+from service.api.health import Readiness
+from service.api.limits import BodyLimits, RateLimit, RequestLimit
+from service.api.observation import Observation, ServiceMetrics
 from service.api.problems import install_problem_handlers
-from service.api.rate_limit import RateLimit
-from service.api.readiness import Readiness
-from service.api.readiness import checks as readiness_checks
-from service.api.request_form import check_form
-from service.api.request_limit import RequestLimit
-from service.api.security_headers import SecurityHeaders
+from service.api.requests import check_form
 from service.compute.lanes import Ask
 from service.jobs.blobs import BlobStore
 from service.jobs.engine import JobEngine
@@ -53,19 +52,24 @@ from service.version import VERSION
 MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 """Allowance, besides the pictures, for the JSON part and the multipart's own lines."""
 
+GRACE_S: Final = 5
+"""How long open requests may take to end; event streams end at once."""
+
+IDLE_S: Final = 5
+"""How long a connection may stay open between two requests."""
+
+HEAD_BYTES: Final = 65_536
+"""The longest head of a request."""
 
 _ROUTERS: Final = (
     submissions.ROUTER,
     fits.ROUTER,
     products.ROUTER,
     images.ROUTER,
-    picture_questions.ROUTER,
-    initial_poses.ROUTER,
-    bodies.ROUTER,
+    questions.ROUTER,
     health.ROUTER,
     problems.ROUTER,
-    documentation.ROUTER,
-    page.ROUTER,
+    pages.ROUTER,
 )
 """In the order of the OpenAPI document."""
 
@@ -75,14 +79,11 @@ CORS_REQUEST_HEADERS: Final = (
     "Content-Type",
     "Idempotency-Key",
     "If-None-Match",
-    "If-Range",
     "Last-Event-ID",
     "Prefer",
-    "Range",
     "X-Request-Id",
 )
 CORS_ANSWER_HEADERS: Final = (
-    "Content-Range",
     "ETag",
     "Link",
     "Location",
@@ -126,40 +127,32 @@ def create_app(
         engine=engine,
         blobs=blobs,
         disk=disk,
-        estimates=Estimates(ask, metrics, estimators=settings.estimator_processes),
+        estimators=Estimators(ask, metrics, estimators=settings.estimator_processes),
         feed=feed,
         metrics=metrics,
         draining=draining,
-        readiness=Readiness(readiness_checks(engine, blobs, disk)),
         read_header=read_header,
     )
-    _surround(
-        app,
-        settings=settings,
-        keys=keys,
-        metrics=metrics,
-    )
+    app.state.readiness = Readiness(health.checks(engine, blobs, disk))
+    _surround(app, settings=settings, keys=keys, metrics=metrics)
     return app
 
 
-def _surround(
-    app: FastAPI,
-    *,
-    settings: Settings,
-    keys: KeyRing,
-    metrics: ServiceMetrics,
-) -> None:
+def _surround(app: FastAPI, *, settings: Settings, keys: KeyRing, metrics: ServiceMetrics) -> None:
     """Put the layers around the resources, innermost first."""
-    needs_keys = settings.authentication == "keys"
-    app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
+    if settings.authentication == "keys":
+        rate_limit = RateLimit(per_minute=settings.requests_per_minute)
+        app.add_middleware(Authentication, keys=keys, rate_limit=rate_limit)
+    else:
+        app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
     app.add_middleware(
-        Authentication,
-        keys=KnownKeys(keys) if needs_keys else None,
-        uses=KeyUses(keys),
-        rate_limit=RateLimit(per_minute=settings.requests_per_minute) if needs_keys else None,
+        BodyLimits,
+        max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES,
+        time_limit_s=settings.body_time_limit_s,
     )
     if settings.allowed_origins:
-        # Outside of authentication: browsers send CORS preflight requests without a key.
+        # Outside of what refuses: browsers read only answers with its headers, and send their
+        # preflight requests without a key.
         app.add_middleware(
             CORSMiddleware,
             allow_origins=settings.allowed_origins,
@@ -167,12 +160,12 @@ def _surround(
             allow_headers=CORS_REQUEST_HEADERS,
             expose_headers=CORS_ANSWER_HEADERS,
         )
-    if not needs_keys:
-        app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
-    app.add_middleware(MessageFraming)
-    # Outside of everything that reads or discards bodies.
-    app.add_middleware(BodyTimeLimit, time_limit_s=settings.body_time_limit_s)
-    app.add_middleware(Compression)
+    app.add_middleware(
+        GZipMiddleware,
+        minimum_size=COMPRESSED_FROM_BYTES,
+        compresslevel=6,
+        exclude_content_types=LEFT_AS_THEY_ARE,
+    )
     app.add_middleware(RequestLimit)
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
     app.add_middleware(Observation, metrics=metrics)
@@ -199,11 +192,12 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
         dependencies=[Depends(check_form)],
+        responses=openapi.ANSWERED_EVERYWHERE,
     )
     install_problem_handlers(app)
     for router in _ROUTERS:
         app.include_router(router)
-    documentation.mount_site(app)
+    pages.mount_files(app)
     generate = app.openapi
 
     def complete() -> dict[str, Any]:
@@ -213,3 +207,45 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
 
     app.openapi = complete
     return app
+
+
+class ApiServer(uvicorn.Server):
+    """Serves an application until SIGTERM or SIGINT, and for ``stop_delay_s`` after it."""
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        *,
+        log_level: str,
+        draining: threading.Event,
+        stop_delay_s: float,
+    ) -> None:
+        super().__init__(
+            uvicorn.Config(
+                app,
+                # Whatever else is installed: only h11 keeps to the longest head.
+                http="h11",
+                h11_max_incomplete_event_size=HEAD_BYTES,
+                timeout_keep_alive=IDLE_S,
+                timeout_graceful_shutdown=GRACE_S,
+                ws="none",
+                log_config=None,
+                log_level=log_level.lower(),
+                # Requests are logged where their ids are known.
+                access_log=False,
+                server_header=False,
+            )
+        )
+        self._draining = draining
+        self._stop_delay_s = stop_delay_s
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Report not ready; stop after the delay, or at once at the second signal."""
+        if self._draining.is_set() or self._stop_delay_s == 0.0:
+            self._draining.set()
+            super().handle_exit(sig, frame)
+            return
+        self._draining.set()
+        timer = threading.Timer(self._stop_delay_s, super().handle_exit, (sig, frame))
+        timer.daemon = True
+        timer.start()

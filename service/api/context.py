@@ -2,14 +2,14 @@
 
 import threading
 from dataclasses import dataclass, fields
-from typing import Annotated, Final
+from typing import Annotated
 
 from fastapi import Depends, Request
 
-from service.api.estimates import Estimates
-from service.api.event_feed import EventFeed
-from service.api.metrics import ServiceMetrics
-from service.api.readiness import Readiness
+from service.api.auth import Caller
+from service.api.estimators import Estimators
+from service.api.events import EventFeed
+from service.api.observation import ServiceMetrics
 from service.jobs.blobs import BlobStore
 from service.jobs.engine import JobEngine, TenantJobs
 from service.jobs.images import TenantImages
@@ -17,31 +17,19 @@ from service.process.data_folder import Disk
 from service.settings import Settings
 from service.submissions.image_header import ReadHeader
 
-SOLE_TENANT: Final = "default"
-"""The tenant of all jobs if no keys are required."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Caller:
-    """Who sends a request: for a tenant, and with which of its keys."""
-
-    tenant: str
-    key_id: str | None = None
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, disk, estimates and so on; ``draining`` once told to stop."""
+    """Settings, engine, blobs, disk, estimators and so on; ``draining`` once told to stop."""
 
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
     disk: Disk
-    estimates: Estimates
+    estimators: Estimators
     feed: EventFeed
     metrics: ServiceMetrics
     draining: threading.Event
-    readiness: Readiness
     read_header: ReadHeader
 
 

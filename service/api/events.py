@@ -1,8 +1,12 @@
-"""A fit's events as they happen: server-sent events, resumable."""
+"""The events of fits: a feed that wakes who waits, streams of events, and waits for the end."""
 
 import asyncio
+import logging
+import re
+import threading
 import time
-from collections.abc import AsyncIterator
+from collections import Counter
+from collections.abc import AsyncIterator, Callable
 from typing import Annotated, Any, Final
 
 from fastapi import Header, Response
@@ -11,15 +15,24 @@ from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import EventData, EventKind
-from service.api.context import ApiContext
-from service.jobs.engine import TenantJobs
-from service.jobs.records import TERMINAL, EngineUnavailableError, JobEvent, JobRecord
+from service.api.problems import not_found
+from service.jobs.engine import JobEngine, TenantJobs
+from service.jobs.records import ACTIVE, TERMINAL, EngineUnavailableError, JobEvent, JobRecord
+
+LOG: Final = logging.getLogger(__name__)
+
+POLL_S: Final = 0.1
+PAUSE_AFTER_FAILURE_S: Final = 1.0
+GONE: Final = -1
+"""Stands for the last event of a job that no longer exists."""
 
 PING_S: Final = 15.0
 AWAY_PAUSE_S: Final = 1.0
 RECONNECT_MS: Final = 1_000
+MAX_WAIT_S: Final = 60
 
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
+Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
 
 ITEMS: Final = "x-itemSchema"
 """OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 this needs an extension."""
@@ -56,21 +69,85 @@ EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
 }
 
 
-def event_stream(context: ApiContext, record: JobRecord, last_event_id: int | None) -> Response:
+class EventFeed:
+    """Follows the last event number of every job that someone waits for: one query for all."""
+
+    def __init__(self, engine: JobEngine, draining: threading.Event) -> None:
+        self._engine = engine
+        self._draining = draining
+        self._waiting: Counter[str] = Counter()
+        self._last: dict[str, int] = {}
+        self._changed = asyncio.Condition()
+
+    async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
+        """Return when the job has an event numbered above ``number``, is gone, or time is up.
+
+        Returns at once if the process is being stopped.
+        """
+        self._waiting[job_id] += 1
+        try:
+            async with asyncio.timeout(timeout_s), self._changed:
+                await self._changed.wait_for(
+                    lambda: self.is_ending or self._last.get(job_id, number) != number
+                )
+        except TimeoutError:
+            return
+        finally:
+            self._waiting[job_id] -= 1
+            if self._waiting[job_id] <= 0:
+                del self._waiting[job_id]
+                self._last.pop(job_id, None)
+
+    @property
+    def is_ending(self) -> bool:
+        """Whether the process is stopping: clients that follow a job should ask another process."""
+        return self._draining.is_set()
+
+    async def run(self) -> None:
+        """Poll until canceled; idle while nobody waits."""
+        while True:
+            await asyncio.sleep(POLL_S)
+            if self.is_ending:
+                async with self._changed:
+                    self._changed.notify_all()
+                continue
+            waiting = list(self._waiting)
+            if not waiting:
+                continue
+            try:
+                numbers = await run_in_threadpool(self._engine.last_events, waiting)
+            except Exception as error:
+                # Waiting requests run into their timeouts and query the database themselves.
+                if isinstance(error, EngineUnavailableError):
+                    LOG.warning("The database is not available; events are told later.")
+                else:
+                    LOG.exception("Looking for events failed.")
+                await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
+                continue
+            latest = {job_id: numbers.get(job_id, GONE) for job_id in waiting}
+            if latest.items() - self._last.items():
+                self._last |= latest
+                async with self._changed:
+                    self._changed.notify_all()
+
+
+def event_stream(
+    feed: EventFeed, jobs: TenantJobs, record: JobRecord, last_event_id: int | None
+) -> Response:
     """Answer with the events of a fit, as they come; 204 after its end."""
     # An event number that never existed: send all that follow.
     seen = min(last_event_id or 0, record.last_event)
     if record.state in TERMINAL and seen == record.last_event:
         return Response(status_code=204)
     return StreamingResponse(
-        _stream(context, context.jobs, record.id, seen),
+        _stream(feed, jobs, record.id, seen),
         media_type="text/event-stream",
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
     )
 
 
 async def _stream(
-    context: ApiContext, jobs: TenantJobs, job_id: str, seen: int
+    feed: EventFeed, jobs: TenantJobs, job_id: str, seen: int
 ) -> AsyncIterator[bytes]:
     yield format_sse_event(retry=RECONNECT_MS)
     last_sign = time.monotonic()
@@ -93,10 +170,10 @@ async def _stream(
             yield KEEPALIVE_COMMENT
         if is_silent or events:
             last_sign = time.monotonic()
-        if context.feed.is_ending:
+        if feed.is_ending:
             # The client reconnects on its own, to a process that stays, and misses nothing.
             return
-        await context.feed.wait_beyond(
+        await feed.wait_beyond(
             job_id, seen, timeout_s=max(0.0, last_sign + PING_S - time.monotonic())
         )
 
@@ -106,3 +183,27 @@ def _format(event: JobEvent) -> bytes:
     return format_sse_event(
         data_str=data.model_dump_json(), event=event.kind.value, id=str(event.number)
     )
+
+
+def preferred_wait_s(prefer: str | None) -> int:
+    """Return how long the caller prefers to wait for the end."""
+    found = re.search(r"(?:^|[,;\s])wait\s*=\s*(\d{1,6})", prefer or "")
+    return min(int(found[1]), MAX_WAIT_S) if found else 0
+
+
+async def wait_for_end(
+    feed: EventFeed, job: JobRecord, look: Callable[[], JobRecord | None], *, wait_s: float
+) -> JobRecord:
+    """Wait for the end of a job, which ``look`` looks at; returns it in its state by then."""
+    deadline = time.monotonic() + wait_s
+    while (
+        job.state in ACTIVE
+        and not feed.is_ending
+        and (remaining_s := deadline - time.monotonic()) > 0
+    ):
+        await feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
+        latest = await run_in_threadpool(look)
+        if latest is None:
+            raise not_found(what="such fit any more")
+        job = latest
+    return job

@@ -1,30 +1,53 @@
-"""Responses with a file: as stored or in the preferred format, whole or in part.
+"""Files over HTTP: as stored, or written from what is stored when they are asked for.
 
-Parts are ranges of bytes (RFC 9110 14).
+Every GLB is also there in other mesh formats, every picture that was sent as a JPEG, and a result's
+measurements as a table; they are never stored, and have the same bytes each time.
 """
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import PurePosixPath
 from typing import Annotated, Any, Final
 
 from fastapi import Depends, Header, Path, Response
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from service.api.context import ApiContext
-from service.api.json_bodies import JSON
-from service.api.problems import ProblemError, documented, not_found
-from service.api.renditions import JPEG, Rendition, is_negotiated
-from service.api.security_headers import STAND_ALONE
-from service.jobs.blobs import BlobMissingError
+from service.api.headers import STAND_ALONE
+from service.api.problems import ProblemError, documented
+from service.api.requests import JSON
+from service.jobs.inputs import IMAGE, RESULT
 from service.jobs.records import StoredBlob
-from service.representation.csv_tables import CSV, measurements_csv_of
-from service.representation.formats import GLB, MESH_FORMATS, MTL
+from service.representation.csv_tables import CSV, TABLE, measurements_csv_of
+from service.representation.formats import (
+    GLB,
+    GLB_ENDING,
+    MESH_FORMATS,
+    MTL,
+    MeshFormat,
+    tag_of,
+)
 
 HTML: Final = "text/html"
+JPEG: Final = "image/jpeg"
 PICTURES: Final = (JPEG, "image/png", "image/webp", "image/heic")
 """The kinds of pictures that are accepted."""
+
+TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
+"""What lies next to a textured mesh, that its material refers to."""
+
+ANYTHING: Final = "*/*"
+OCTETS: Final = "application/octet-stream"
+"""Matches every file: a client that accepts bytes accepts any file."""
+
+LONGEST_QUOTED: Final = 100
+"""How many characters of a header a problem quotes."""
+
+_RANGE: Final = re.compile(r"([\w!#$&^.+*-]+/[\w!#$&^.+*-]+)(?:\s*;.*)?")
+_WEIGHT: Final = re.compile(r";\s*[qQ]\s*=\s*(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)\s*(?:;|$)")
 
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
@@ -43,13 +66,6 @@ class FileHeaders:
 
     accept: AcceptHeader = None
     if_none_match: IfNoneMatch = None
-    range: Annotated[str | None, Header(alias="Range")] = None
-    if_range: Annotated[
-        str | None,
-        Header(
-            description="The `ETag` of the file that `Range` is a part of: of another, the whole."
-        ),
-    ] = None
 
 
 Wanted = Annotated[FileHeaders, Depends()]
@@ -66,13 +82,11 @@ FileName = Annotated[
     ),
 ]
 
-NEGOTIATION: Final = """
+FORMATS: Final = """
 
-A `.glb` is answered in the format that `Accept` wants most: GLB, OBJ, PLY or STL; GLB for `*/*`,
-for `application/octet-stream` and without the header, 406 where none of them is accepted. Whatever
-the format, metres with y up, and vertices and triangles in the body model's order (an STL has
-triangles alone). A picture that was sent comes as a JPEG, upright and of the same size, where that
-is preferred: most browsers cannot show HEIC. All other names ignore the header."""
+A mesh has metres with y up, and vertices and triangles in the body model's order (an STL has \
+triangles alone). A picture that was sent comes as a JPEG, upright and of the same size, where \
+`Accept` prefers that: most browsers cannot show HEIC. All other names ignore the header."""
 
 
 def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, dict[str, Any]]:
@@ -81,54 +95,25 @@ def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, 
     ``problems`` are those that may keep a caller from what has the file.
     """
     meshes = (GLB, *(each.media_type for each in (*MESH_FORMATS.values(), MTL)))
-    files = dict.fromkeys((*media_types, *meshes, CSV), BINARY)
+    content = dict.fromkeys((*media_types, *meshes, CSV), BINARY)
     return (
         {
             200: {
-                "description": "The whole file.",
-                "content": files | {JSON: {"schema": {"type": "object"}}},
-            },
-            206: {
-                "description": "The part asked for.",
-                # Part of a JSON file is not JSON.
-                "content": files | {JSON: BINARY},
+                "description": "The file.",
+                "content": content | {JSON: {"schema": {"type": "object"}}},
             },
         }
         | NOT_MODIFIED
-        | documented("not-acceptable", "range-not-satisfiable", "unusable-input", *problems)
+        | documented("unusable-input", *problems)
     )
 
 
-async def answer_file(
-    context: ApiContext, rendition: Rendition, read: Callable[[StoredBlob], bytes], wanted: Wanted
-) -> Response:
-    """Answer with a file, or a part of it; ``read`` reads what is stored."""
-    headers = {"ETag": f'"{rendition.tag}"', "Accept-Ranges": "bytes"}
-    if is_negotiated(rendition.name):
-        headers["Vary"] = "Accept"
-    if rendition.media_type == HTML:
-        headers["Content-Security-Policy"] = STAND_ALONE
-    if is_known(rendition.tag, wanted.if_none_match):
+def answer_document(content: bytes, tag: str, if_none_match: str | None) -> Response:
+    """Answer with a JSON document, unless the client has it already."""
+    headers = {"ETag": f'"{tag}"'}
+    if is_known(tag, if_none_match):
         return Response(status_code=304, headers=headers)
-    stored = await run_in_threadpool(read, rendition.source)
-    return whole_or_part(
-        await _converted(context, stored, rendition),
-        media_type=rendition.media_type,
-        headers=headers,
-        range_header=wanted.range,
-        if_range=wanted.if_range,
-    )
-
-
-def answer_blob(
-    context: ApiContext, scope: str, blob: StoredBlob, if_none_match: str | None
-) -> Response:
-    """Answer with a stored document as it is."""
-    headers = {"ETag": f'"{blob.digest}"'}
-    if is_known(blob.digest, if_none_match):
-        return Response(status_code=304, headers=headers)
-    content = stored_content(context, scope, blob)
-    return Response(content, media_type=blob.media_type, headers=headers)
+    return Response(content, media_type=JSON, headers=headers)
 
 
 def is_known(tag: str, if_none_match: str | None) -> bool:
@@ -136,91 +121,165 @@ def is_known(tag: str, if_none_match: str | None) -> bool:
     return if_none_match is not None and (f'"{tag}"' in if_none_match or if_none_match == "*")
 
 
-def stored_content(context: ApiContext, scope: str, blob: StoredBlob) -> bytes:
-    """Read a file of a fit; 404 if it has been erased in the meantime."""
-    try:
-        return context.blobs.get(scope, blob.digest)
-    except BlobMissingError as error:
-        raise not_found(what="such fit any more") from error
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rendition:
+    """A file that can be requested.
+
+    ``source`` is the stored file that it is or is written from; ``mesh_format`` is the format of a
+    mesh that is not stored. ``tag`` identifies its bytes; ``by_accept`` says that the answer
+    depends on the Accept header.
+    """
+
+    media_type: str
+    tag: str
+    source: StoredBlob
+    mesh_format: MeshFormat | None = None
+    by_accept: bool = False
+
+
+def chosen_rendition(
+    files: Mapping[str, StoredBlob], name: str, *, state: JobState, accept: str | None
+) -> Rendition:
+    """Find a file by its name; a picture that was sent, as ``accept`` prefers it.
+
+    ``state`` is that of the fit or product that has these files.
+
+    Raises
+    ------
+    ProblemError
+        If nothing has that name.
+    """
+    there_are = dict(renditions(files))
+    if name not in there_are:
+        raise _unknown(name, there_are, state)
+    if PurePosixPath(name).name == IMAGE:
+        return picture_rendition(files[name], accept=accept)
+    return there_are[name]
+
+
+def picture_rendition(picture: StoredBlob, *, accept: str | None) -> Rendition:
+    """A picture as it was sent, or as a JPEG where that is preferred."""
+    sent, tag = picture.media_type, picture.digest
+    if sent != JPEG and preferred(accept, (sent, JPEG)) == JPEG:
+        return Rendition(media_type=JPEG, tag=f"{tag}-jpeg", source=picture, by_accept=True)
+    return Rendition(media_type=sent, tag=tag, source=picture, by_accept=True)
+
+
+def renditions(files: Mapping[str, StoredBlob]) -> Iterator[tuple[str, Rendition]]:
+    """All files that can be requested by their names, each followed by its other formats."""
+    written = list(MESH_FORMATS.values())
+    if not TEXTURE_FILES.isdisjoint(files):
+        written.append(MTL)
+    for name, file in files.items():
+        yield name, Rendition(media_type=file.media_type, tag=file.digest, source=file)
+        if name.endswith(GLB_ENDING):
+            for each in written:
+                yield (
+                    f"{name.removesuffix(GLB_ENDING)}.{each.ending}",
+                    Rendition(
+                        media_type=each.media_type,
+                        tag=tag_of(file.digest, each),
+                        source=file,
+                        mesh_format=each,
+                    ),
+                )
+    if RESULT in files:
+        document = files[RESULT]
+        yield TABLE, Rendition(media_type=CSV, tag=f"{document.digest}-csv", source=document)
+
+
+def _unknown(name: str, there_are: Mapping[str, Rendition], state: JobState) -> ProblemError:
+    there_is = f"Ask for {_named(there_are)}." if there_are else "Nothing is there to be asked for."
+    if state is not JobState.SUCCEEDED:
+        there_is += f" The state is {state}; only what has succeeded has files of a result."
+    return ProblemError(
+        problem(
+            "not-found",
+            detail=f"There is no file '{name}' here.",
+            remedy=there_is,
+        )
+    )
+
+
+def _named(there_are: Mapping[str, Rendition]) -> str:
+    """All names, with the endings of a mesh combined: ``body_canonical (.glb, .obj, .stl)``."""
+    said: dict[str, list[str]] = {}
+    for name, each in there_are.items():
+        path = PurePosixPath(name)
+        is_mesh = each.source.media_type == GLB
+        said.setdefault(str(path.with_suffix("")) if is_mesh else name, []).extend(
+            [path.suffix] if is_mesh else []
+        )
+    return ", ".join(
+        f"{stem} ({', '.join(endings)})" if endings else stem for stem, endings in said.items()
+    )
+
+
+def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
+    """Choose the offered type that an Accept header prefers most; None if none is acceptable.
+
+    Of types with equal weight, the one asked for more specifically wins, then the one named first,
+    then the one offered first (RFC 9110 12.5.1). An empty header accepts anything; entries that
+    cannot be parsed, and parameters other than the weight, are ignored.
+    """
+    ranges: dict[str, tuple[float, int]] = {}
+    for place, entry in enumerate((accept or "").split(",")):
+        found = _RANGE.fullmatch(entry.strip())
+        if found is not None:
+            kind = found[1].lower()
+            weight = _WEIGHT.search(entry)
+            ranges.setdefault(
+                ANYTHING if kind == OCTETS else kind, (float(weight[1]) if weight else 1.0, -place)
+            )
+    if not ranges:
+        return offered[0]
+    ranked: list[tuple[float, int, int, int, str]] = []
+    for place, media_type in enumerate(offered):
+        kinds = (media_type, f"{media_type.partition('/')[0]}/*", ANYTHING)
+        specificity, kind = next(
+            ((-each, kind) for each, kind in enumerate(kinds) if kind in ranges), (0, None)
+        )
+        if kind is not None and ranges[kind][0] > 0.0:
+            ranked.append((ranges[kind][0], specificity, ranges[kind][1], -place, media_type))
+    return max(ranked)[-1] if ranked else None
+
+
+def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
+    """Say that nothing acceptable is available, and what is."""
+    text = accept or ANYTHING
+    quoted = text if len(text) <= LONGEST_QUOTED else f"{text[:LONGEST_QUOTED]}..."
+    return ProblemError(
+        problem(
+            "not-acceptable",
+            detail=f"{what} cannot be had as {quoted}.",
+            remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
+            field="Accept",
+        ),
+        headers={"Vary": "Accept"},
+    )
+
+
+async def answer_file(
+    context: ApiContext, rendition: Rendition, read: Callable[[StoredBlob], bytes], wanted: Wanted
+) -> Response:
+    """Answer with a file; ``read`` reads what is stored."""
+    headers = {"ETag": f'"{rendition.tag}"'}
+    if rendition.by_accept:
+        headers["Vary"] = "Accept"
+    if rendition.media_type == HTML:
+        headers["Content-Security-Policy"] = STAND_ALONE
+    if is_known(rendition.tag, wanted.if_none_match):
+        return Response(status_code=304, headers=headers)
+    stored = await run_in_threadpool(read, rendition.source)
+    content = await _converted(context, stored, rendition)
+    return Response(content, media_type=rendition.media_type, headers=headers)
 
 
 async def _converted(context: ApiContext, stored: bytes, rendition: Rendition) -> bytes:
     if rendition.mesh_format is not None:
-        return await context.estimates.convert(stored, rendition.mesh_format)
+        return await context.estimators.convert(stored, rendition.mesh_format)
     if rendition.media_type == rendition.source.media_type:
         return stored
     if rendition.media_type == JPEG:
-        return await context.estimates.jpeg(stored)
+        return await context.estimators.jpeg(stored)
     return measurements_csv_of(stored)
-
-
-@dataclass(frozen=True, slots=True)
-class ByteRange:
-    """First and last byte, both included."""
-
-    first: int
-    last: int
-
-
-def parse_range(header: str, size: int) -> ByteRange | None:
-    """Read a Range header of one range; None if the whole file is to be sent instead.
-
-    A header that is not understood, or asks for several ranges, is ignored (RFC 9110 14.2).
-
-    Raises
-    ------
-    ValueError
-        If the range lies outside the file's ``size`` bytes.
-    """
-    found = re.fullmatch(r"bytes=(\d{0,18})-(\d{0,18})", header.strip())
-    if found is None or not (found[1] or found[2]):
-        return None
-    if not found[1]:
-        length = min(int(found[2]), size)
-        first, last = size - length, size - 1
-    else:
-        first = int(found[1])
-        last = min(int(found[2]), size - 1) if found[2] else size - 1
-        if found[2] and int(found[2]) < first:
-            return None
-    if first > last:
-        message = f"bytes {header} of {size}"
-        raise ValueError(message)
-    return ByteRange(first, last)
-
-
-def whole_or_part(
-    content: bytes,
-    *,
-    media_type: str,
-    headers: Mapping[str, str],
-    range_header: str | None,
-    if_range: str | None,
-) -> Response:
-    """Answer with a file, or with the requested part of it; 416 if it has no such part.
-
-    A part is sent only if ``if_range`` names this very file, else the whole. Files are sent without
-    a date, so a date in ``if_range`` never matches (RFC 9110 13.1.5).
-    """
-    of_another = if_range not in (None, headers["ETag"])
-    wanted = None if of_another else range_header
-    try:
-        part = None if wanted is None else parse_range(wanted, len(content))
-    except ValueError as error:
-        raise ProblemError(
-            problem(
-                "range-not-satisfiable",
-                detail=f"The file has {len(content)} bytes.",
-                remedy="Ask for bytes it has.",
-                field="Range",
-            ),
-            headers={"Content-Range": f"bytes */{len(content)}"},
-        ) from error
-    if part is None:
-        return Response(content, media_type=media_type, headers=dict(headers))
-    return Response(
-        content[part.first : part.last + 1],
-        status_code=206,
-        media_type=media_type,
-        headers=dict(headers) | {"Content-Range": f"bytes {part.first}-{part.last}/{len(content)}"},
-    )

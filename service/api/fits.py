@@ -16,30 +16,21 @@ from api_schemas.results import FitResult, ResultPart
 from service.api.context import Context
 from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
 from service.api.files import (
-    NEGOTIATION,
+    FORMATS,
     NOT_MODIFIED,
     PICTURES,
     FileName,
     IfNoneMatch,
     Wanted,
-    answer_blob,
+    answer_document,
     answer_file,
+    chosen_rendition,
     file_answers,
-    is_known,
-    stored_content,
 )
-from service.api.json_bodies import JSON, json_content
-from service.api.listing import (
-    Limit,
-    cursor_of,
-    cursor_pattern,
-    cursor_query,
-    page_of,
-    read_cursor,
-)
+from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found
-from service.api.renditions import chosen_rendition
-from service.api.storage import erase_blobs
+from service.api.requests import JSON, json_content
+from service.api.storage import erase_blobs, stored_content
 from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
 from service.jobs.records import ACTIVE, TERMINAL, JobRecord
@@ -47,9 +38,6 @@ from service.representation.jobs import FITS, POLL_AFTER_S, represent
 from service.representation.results import result_json
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
-
-CURSOR: Final = cursor_pattern("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}")
-"""When the last fit of a page was accepted, in epoch seconds, and its id."""
 
 FIT_PROBLEMS: Final = (
     "not-found",
@@ -91,18 +79,17 @@ def list_fits(
     context: Context,
     response: Response,
     limit: Limit = 50,
-    cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
+    cursor: Cursor = None,
     state: Annotated[JobState | None, Query()] = None,
     label: Annotated[Label | None, Query(description="Only those with exactly this label.")] = None,
 ) -> FitPage:
     """List fits; `next` and the Link header lead to the following page."""
-    before = read_cursor(CURSOR, cursor)
+    before = read_cursor(cursor)
     page, following = page_of(
         context.jobs.jobs(limit=limit + 1, before=before, state=state, label=label),
         response,
         path=FITS,
         limit=limit,
-        cursor=lambda last: cursor_of(last.created_at, last.id),
         filters={"state": state, "label": label},
     )
     return FitPage(fits=tuple(map(represent, page)), next=following)
@@ -137,7 +124,7 @@ def follow_fit(record: Found, context: Context, last_event_id: LastEventId = Non
     All events since the fit was accepted are kept: a client that comes late or reconnects misses
     none.
     """
-    return event_stream(context, record, last_event_id)
+    return event_stream(context.feed, context.jobs, record, last_event_id)
 
 
 @ROUTER.post(
@@ -187,7 +174,8 @@ def erase_fit(fit_id: UUID, context: Context) -> Response:
 )
 def get_fit_request(record: Found, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return what was asked for, with names for all points: to be changed and sent again."""
-    return answer_blob(context, record.id, record.options, if_none_match)
+    content = stored_content(context.blobs, record.id, record.options)
+    return answer_document(content, record.options.digest, if_none_match)
 
 
 @ROUTER.get(
@@ -208,28 +196,24 @@ def get_fit_result(
     document = record.files.get(RESULT)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    stored = stored_content(context, record.id, document)
+    stored = stored_content(context.blobs, record.id, document)
     content = result_json(stored, included=frozenset(include or ()))
-    tag = hashlib.sha256(content).hexdigest()
-    headers = {"ETag": f'"{tag}"'}
-    if is_known(tag, if_none_match):
-        return Response(status_code=304, headers=headers)
-    return Response(content, media_type=JSON, headers=headers)
+    return answer_document(content, hashlib.sha256(content).hexdigest(), if_none_match)
 
 
 @ROUTER.get(
     "/{fit_id}/files/{name:path}",
     summary="A file of a fit",
     description="Return a file: `views/0/image`, as it was sent; `views/0/overlay.png`, "
-    f"`body_canonical.obj`, `measurements.csv` and so on.{NEGOTIATION}",
+    f"`body_canonical.obj`, `measurements.csv` and so on.{FORMATS}",
     response_class=Response,
     responses=file_answers(*PICTURES, "application/zip", problems=FIT_PROBLEMS),
 )
 async def get_fit_file(record: Found, name: FileName, context: Context, wanted: Wanted) -> Response:
-    """Return a file, whole or in part."""
+    """Return a file."""
     rendition = chosen_rendition(record.files, name, state=record.state, accept=wanted.accept)
     return await answer_file(
-        context, rendition, partial(stored_content, context, record.id), wanted
+        context, rendition, partial(stored_content, context.blobs, record.id), wanted
     )
 
 

@@ -1,19 +1,43 @@
 """Is the process alive, can it do its work, and its figures for Prometheus.
 
-The first two are answered by the event loop itself, which no other request can keep waiting.
+The first two are answered by the event loop itself, which no other request can keep waiting. A
+check of a database or a storage that does not answer takes a minute or more. Checks therefore run
+one at a time in a thread of their own, and probes are answered meanwhile.
 """
 
+import asyncio
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Final
 
 from fastapi import APIRouter, Request, Response
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
+from api_schemas.problems import problem
 from api_schemas.service import Live, Ready
 from service.api.context import Context, Parts
-from service.api.problems import documented
-from service.api.readiness import not_ready
+from service.api.problems import ProblemError, documented
+from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.engine import JobEngine
+from service.jobs.records import WorkerStatus
+from service.process.data_folder import Disk
 
 ROUTER: Final = APIRouter(tags=["health"])
+
+ANSWER_WITHIN_S: Final = 1.5
+"""What has not been found out by then is not ready: probes wait for two seconds and more."""
+
+SERVED_AGAIN_S: Final = 0.1
+"""How long an answer is given again without another look: whoever asks without a pause costs ten
+looks a second, each a write to database and storage."""
+
+SILENT: Final = {
+    "database": ("database-unavailable", "The database has not answered for {seconds:.0f} s."),
+    "storage": ("storage-unavailable", "The storage has not answered for {seconds:.0f} s."),
+}
 
 
 @ROUTER.get("/healthz/live", response_model=Live, summary="The process answers")
@@ -41,7 +65,8 @@ async def get_readiness(request: Request) -> Ready:
     parts: Parts = request.app.state.parts
     if parts.draining.is_set():
         raise not_ready(code="draining", detail="This process is being stopped.")
-    return await parts.readiness.ready()
+    readiness: Readiness = request.app.state.readiness
+    return await readiness.ready()
 
 
 @ROUTER.get(
@@ -59,3 +84,131 @@ async def get_readiness(request: Request) -> Ready:
 def get_metrics(context: Context) -> Response:
     """Return queue, workers, endings, durations and requests; needs a key made for metrics."""
     return Response(context.metrics.exposition(), media_type=CONTENT_TYPE_LATEST)
+
+
+@dataclass(slots=True)
+class Look:
+    """One look at everything; ``at`` is what it waits for."""
+
+    began: float
+    at: str = "database"
+    answer: asyncio.Future[Ready] = field(default_factory=asyncio.Future[Ready])
+
+
+class Readiness:
+    """Answers probes; used by one event loop."""
+
+    def __init__(
+        self,
+        check: Callable[[Look], Ready],
+        *,
+        answer_within_s: float = ANSWER_WITHIN_S,
+        served_again_s: float = SERVED_AGAIN_S,
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._check = check
+        self._answer_within_s = answer_within_s
+        self._served_again_s = served_again_s
+        self._monotonic = monotonic
+        self.last: Look | None = None
+        """The look that is being made, or was made last."""
+        self._ended = 0.0
+
+    async def ready(self) -> Ready:
+        """Return within two seconds, whatever database and storage do.
+
+        Raises
+        ------
+        ProblemError
+            If a part is missing, or does not answer.
+        EngineUnavailableError
+            If the database is not available.
+        """
+        look = self._current()
+        left_s = self._answer_within_s - (self._monotonic() - look.began)
+        await asyncio.wait([look.answer], timeout=max(left_s, 0.0))
+        if look.answer.done():
+            return look.answer.result()
+        code, detail = SILENT[look.at]
+        raise not_ready(
+            code=code, detail=detail.format(seconds=max(self._monotonic() - look.began, 1.0))
+        )
+
+    def _current(self) -> Look:
+        """The look that is being made, the last one if it is recent, or a new one."""
+        now = self._monotonic()
+        last = self.last
+        if last is not None and (
+            not last.answer.done() or now - self._ended < self._served_again_s
+        ):
+            return last
+        self.last = Look(began=now)
+        threading.Thread(
+            target=self._make,
+            args=(self.last, asyncio.get_running_loop()),
+            name="readiness",
+            daemon=True,
+        ).start()
+        return self.last
+
+    def _make(self, look: Look, loop: asyncio.AbstractEventLoop) -> None:
+        try:
+            outcome: Ready | Exception = self._check(look)
+        except Exception as error:
+            outcome = error
+        # Nobody asks any more once the loop is closed.
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(self._end, look, outcome)
+
+    def _end(self, look: Look, outcome: Ready | Exception) -> None:
+        self._ended = self._monotonic()
+        if isinstance(outcome, Exception):
+            look.answer.set_exception(outcome)
+            # Read here, so that an answer nobody waits for any more is not logged as forgotten.
+            look.answer.exception()
+        else:
+            look.answer.set_result(outcome)
+
+
+def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Ready]:
+    """What a look is made at: disk, database, storage and workers."""
+
+    def check(look: Look) -> Ready:
+        # First: a database on a full disk cannot be written, and would be reported as unavailable.
+        if not disk.has_room_for():
+            raise not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
+        engine.check_writable()
+        look.at = "storage"
+        _check_storage(blobs)
+        look.at = "database"
+        workers = engine.workers()
+        able = sum(worker.is_ready for worker in workers)
+        if able == 0:
+            raise not_ready(code="no-worker", detail=_why_none(workers))
+        return Ready(workers=able, queued=engine.queued())
+
+    return check
+
+
+def _why_none(workers: Sequence[WorkerStatus]) -> str:
+    if not any(worker.alive for worker in workers):
+        return "No worker is alive."
+    return "No worker can begin a job: it is still loading, or its log says what is wrong."
+
+
+def _check_storage(blobs: BlobStore) -> None:
+    try:
+        blobs.check_writable()
+    except StorageFullError as error:
+        raise not_ready(code="disk-full", detail="The storage is full.") from error
+    except BlobsUnavailableError as error:
+        raise not_ready(
+            code="storage-unavailable", detail="The storage cannot be written."
+        ) from error
+
+
+def not_ready(*, code: str, detail: str) -> ProblemError:
+    """Say what is missing."""
+    return ProblemError(
+        problem("not-ready", code=code, detail=detail, remedy="Try again in a moment.")
+    )

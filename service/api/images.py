@@ -11,20 +11,18 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.picture import ImageId, ImagePage, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
-from service.api.files import BINARY, NOT_MODIFIED, PICTURES, Wanted, answer_file
-from service.api.json_bodies import JSON, json_content
-from service.api.listing import (
-    Limit,
-    cursor_of,
-    cursor_pattern,
-    cursor_query,
-    page_of,
-    read_cursor,
+from service.api.files import (
+    BINARY,
+    NOT_MODIFIED,
+    PICTURES,
+    Wanted,
+    answer_file,
+    picture_rendition,
 )
+from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found
-from service.api.renditions import picture_rendition
+from service.api.requests import Part, body, form_content, read_form
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
-from service.api.uploads import picture_form, read_image
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
 from service.jobs.images import (
     ImageQuotaError,
@@ -40,13 +38,9 @@ from service.submissions.submission import check_picture
 PATH: Final = "/v1/images"
 ROUTER: Final = APIRouter(prefix=PATH, tags=["images"])
 
-CURSOR: Final = cursor_pattern("[0-9a-f]{64}")
-
-_UPLOAD: Final[dict[str, Any]] = {"requestBody": {"required": True, "content": picture_form()}}
-_CONTENT: Final = {JSON: json_content(UploadedImage)}
+_PARTS: Final = {IMAGE: Part(description="JPEG, PNG, WebP or HEIC.", least=1)}
 _PICTURE: Final[dict[int | str, dict[str, Any]]] = {
-    status: {"description": description, "content": dict.fromkeys(PICTURES, BINARY)}
-    for status, description in ((200, "The whole file."), (206, "The part asked for."))
+    200: {"description": "The file.", "content": dict.fromkeys(PICTURES, BINARY)}
 }
 _LOCATION: Final = {
     "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}
@@ -58,14 +52,14 @@ _LOCATION: Final = {
     status_code=201,
     response_model=UploadedImage,
     summary="Upload a picture",
-    openapi_extra=_UPLOAD,
+    openapi_extra=body(form=form_content(_PARTS)),
     responses={
         200: {
             "description": "The same picture is there already; its time begins anew.",
-            "content": _CONTENT,
+            "model": UploadedImage,
             "headers": _LOCATION,
         },
-        201: {"description": "Kept.", "content": _CONTENT, "headers": _LOCATION},
+        201: {"description": "Kept.", "model": UploadedImage, "headers": _LOCATION},
     }
     | documented(
         "malformed-request",
@@ -84,7 +78,7 @@ async def upload_image(request: Request, response: Response, context: Context) -
     The id is the SHA-256 of the file. It is erased at its `expires_at`, or by DELETE; fits that
     were made of it have a copy of their own.
     """
-    content = await read_image(request)
+    (content,) = (await read_form(request, _PARTS))[IMAGE]
     with storing():
         kept = await run_in_threadpool(_keep, context, content)
     response.status_code = 201 if kept.is_new else 200
@@ -102,16 +96,15 @@ def list_images(
     response: Response,
     context: Context,
     limit: Limit = 50,
-    cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
+    cursor: Cursor = None,
 ) -> ImagePage:
     """List the tenant's pictures. `next` and the Link header lead to the following page."""
-    found = context.images.images(limit=limit + 1, before=read_cursor(CURSOR, cursor))
+    found = context.images.images(limit=limit + 1, before=read_cursor(cursor))
     page, following = page_of(
         found,
         response,
         path=PATH,
         limit=limit,
-        cursor=lambda last: cursor_of(last.created_at, last.id),
     )
     return ImagePage(images=tuple(map(_represent, page)), next=following)
 
@@ -120,8 +113,7 @@ def list_images(
     "/{image_id}",
     response_model=UploadedImage,
     summary="Look at an uploaded picture's facts",
-    responses={200: {"content": _CONTENT}}
-    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
 )
 def get_image(
     image_id: Annotated[ImageId, Path()], response: Response, context: Context
@@ -141,7 +133,6 @@ def get_image(
     | NOT_MODIFIED
     | documented(
         "not-found",
-        "range-not-satisfiable",
         "invalid-request",
         "unusable-input",
         "not-ready",
@@ -160,7 +151,7 @@ async def get_picture(
     if record is None:
         raise not_found(what="such picture")
     picture = StoredBlob(digest=record.id, media_type=record.media_type)
-    rendition = picture_rendition(IMAGE, picture, accept=wanted.accept)
+    rendition = picture_rendition(picture, accept=wanted.accept)
     return await answer_file(context, rendition, lambda _: _read(context, record), wanted)
 
 

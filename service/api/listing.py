@@ -1,63 +1,56 @@
 """Pagination of lists: the cursor at which a page ends, and the page after it."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any, Final, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Final, Protocol, TypeVar
 from urllib.parse import quote
 
 from fastapi import Query, Response
 
-from api_schemas.problems import FieldProblem, field_problem
-from service.api.problems import ProblemError
-
-Entry = TypeVar("Entry")
+from api_schemas.problems import FieldProblem
+from service.submissions.refusal import refused
 
 MAX_PAGE: Final = 200
 
-MOMENT: Final = r"[0-9]{1,12}(?:\.[0-9]{1,9})?"
-"""Epoch seconds."""
+CURSOR: Final = r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f-]{36}|[0-9a-f]{64})$"
+"""When the last entry of a page was made, in epoch seconds, and its id: a UUID or a SHA-256."""
 
 Limit = Annotated[int, Query(ge=1, le=MAX_PAGE)]
+Cursor = Annotated[
+    str | None,
+    Query(description="From `next` of the page before.", json_schema_extra={"pattern": CURSOR}),
+]
 
 
-def cursor_pattern(identity: str) -> str:
-    """The pattern of cursors of a list whose entries have ids of this pattern."""
-    return f"^({MOMENT})-({identity})$"
+class _Record(Protocol):
+    @property
+    def id(self) -> str: ...
+
+    @property
+    def created_at(self) -> float: ...
 
 
-def cursor_query(pattern: str) -> Any:
-    """Describe the query parameter with a cursor of this pattern."""
-    return Query(
-        description="From `next` of the page before.", json_schema_extra={"pattern": pattern}
-    )
+Entry = TypeVar("Entry", bound=_Record)
 
 
-def cursor_of(created_at: float, identity: str) -> str:
-    """The cursor of the page that ends with an entry."""
-    return f"{created_at!r}-{identity}"
-
-
-def read_cursor(pattern: str, cursor: str | None) -> tuple[float, str] | None:
+def read_cursor(cursor: str | None) -> tuple[float, str] | None:
     """When the last entry of the page before was made, and its id; None on the first page.
 
     Raises
     ------
-    ProblemError
-        If it is no cursor of such a list.
+    RefusedError
+        If it is no cursor of this service.
     """
     if cursor is None:
         return None
-    found = re.fullmatch(pattern.removeprefix("^").removesuffix("$"), cursor)
+    found = re.match(CURSOR, cursor)
     if found is None:
-        raise ProblemError(
-            field_problem(
-                "invalid-request",
-                FieldProblem(
-                    field="cursor",
-                    code="unknown-cursor",
-                    reason="This is no cursor of this service.",
-                    remedy="Follow 'next' of a page, or leave the cursor out.",
-                ),
+        raise refused(
+            FieldProblem(
+                field="cursor",
+                code="unknown-cursor",
+                reason="This is no cursor of this service.",
+                remedy="Follow 'next' of a page, or leave the cursor out.",
             )
         )
     return float(found[1]), found[2]
@@ -69,7 +62,6 @@ def page_of(
     *,
     path: str,
     limit: int,
-    cursor: Callable[[Entry], str],
     filters: Mapping[str, str | None] | None = None,
 ) -> tuple[Sequence[Entry], str | None]:
     """Return the entries of a page and the path of the next, which the Link header names too.
@@ -79,7 +71,8 @@ def page_of(
     page = found[:limit]
     if len(found) <= limit:
         return page, None
-    asked = {"limit": str(limit), "cursor": cursor(page[-1]), **(filters or {})}
+    cursor = f"{page[-1].created_at!r}-{page[-1].id}"
+    asked = {"limit": str(limit), "cursor": cursor, **(filters or {})}
     query = "&".join(f"{name}={quote(value, safe='')}" for name, value in asked.items() if value)
     following = f"{path}?{query}"
     response.headers["Link"] = f'<{following}>; rel="next"'

@@ -5,21 +5,20 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any, Final, cast
+from typing import Any, Final, Literal, cast
 
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.jobs import EventData, WebhookEvent
-from api_schemas.picture import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
+from api_schemas.picture import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX
 from api_schemas.problems import Problem
 from api_schemas.products import ProductRequest
 from api_schemas.products.bodies import TEXTURE_SIZES
 from api_schemas.questions import (
     BodyEstimate,
     BodyRequest,
-    InitialPose,
     InitialPoseRequest,
     PointsProposal,
     PointsRequest,
@@ -41,8 +40,8 @@ from fitter.vocabulary.points import (
     POINT_NAMES,
     TRUNK_POINT_NAMES,
 )
-from service.api.json_bodies import JSON, json_content
 from service.api.problems import documented, documented_responses
+from service.api.requests import JSON, json_content
 
 SUMMARY: Final = "Human body shape, pose, light and measurements from a single picture."
 
@@ -73,30 +72,30 @@ SERVERS: Final[Sequence[Mapping[str, Any]]] = (
 Examples = Mapping[str, Any]
 """Values by their names."""
 
-_ANSWERED_EVERYWHERE = {
-    str(status): answer
-    for status, answer in documented(
-        "unauthorized",
-        "forbidden",
-        "method-not-allowed",
-        "request-timeout",
-        "too-many-requests",
-        "too-many-connections",
-    ).items()
-}
+ANSWERED_EVERYWHERE: Final = documented(
+    "unauthorized",
+    "forbidden",
+    "method-not-allowed",
+    "request-timeout",
+    "too-many-requests",
+    "too-many-connections",
+)
 
 _KEY_SCHEME = "apiKey"
-_SECURITY: dict[str, Any] = {
-    "securitySchemes": {
-        _KEY_SCHEME: {
-            "type": "http",
-            "scheme": "bearer",
-            "description": "An API key, where the service asks for one "
-            "(`MAQUETTE_AUTHENTICATION=keys`).",
-        }
+_SECURITY: Final = {
+    _KEY_SCHEME: {
+        "type": "http",
+        "scheme": "bearer",
+        "description": "An API key, where the service asks for one "
+        "(`MAQUETTE_AUTHENTICATION=keys`).",
     }
 }
 
+_MODELS: Final[Mapping[Literal["validation", "serialization"], Sequence[type[BaseModel]]]] = {
+    "validation": (FitRequest, ProductRequest, BodyRequest, InitialPoseRequest, PointsRequest),
+    "serialization": (Problem, EventData, BodyEstimate, PointsProposal, WebhookEvent),
+}
+"""Requests, and answers that FastAPI does not know by an operation."""
 
 _REFERENCE: Final = re.compile(r'"#/components/schemas/(\w+)"')
 
@@ -149,11 +148,6 @@ def _notice(name: str, event: type[BaseModel], summary: str) -> dict[str, Any]:
     }
 
 
-_NOTICES: Final[Mapping[str, tuple[type[BaseModel], str]]] = {
-    "fit-ended": (WebhookEvent, "A fit has ended"),
-}
-
-
 _LIMITS: dict[str, Any] = {
     "description": (
         "Limits of several fields together, for clients that check before they send, and the names "
@@ -184,26 +178,25 @@ _LIMITS: dict[str, Any] = {
 
 def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     """Add the types that are only referred to, and drop FastAPI's own error format."""
-    schemas: dict[str, Any] = document.setdefault("components", {}).setdefault("schemas", {})
-    for mode in ("validation", "serialization"):
+    schemas: dict[str, Any] = document["components"]["schemas"]
+    for mode, models in _MODELS.items():
         _, extra = models_json_schema(
-            [(model, mode) for model in _models(mode)],
-            ref_template="#/components/schemas/{model}",
+            [(model, mode) for model in models], ref_template="#/components/schemas/{model}"
         )
         for name, schema in extra.get("$defs", {}).items():
             schemas.setdefault(name, schema)
     for path in document["paths"].values():
         for operation in path.values():
             _complete_operation(operation)
-    document["webhooks"] = {name: _notice(name, *kind) for name, kind in _NOTICES.items()}
+    document["webhooks"] = {"fit-ended": _notice("fit-ended", WebhookEvent, "A fit has ended")}
     document["x-limits"] = _LIMITS
-    for name in ("HTTPValidationError", "ValidationError"):
-        schemas.pop(name, None)
     _tell_defaults(schemas)
     _drop_titles(schemas)
-    document["components"]["schemas"] = dict(sorted(schemas.items()))
-    document["components"] |= _SECURITY
-    document["components"]["responses"] = documented_responses(json.dumps(document["paths"]))
+    document["components"] = {
+        "schemas": dict(sorted(schemas.items())),
+        "securitySchemes": _SECURITY,
+        "responses": documented_responses(json.dumps(document["paths"])),
+    }
     # With a key or without: which of the two, the service's settings say.
     document["security"] = [{_KEY_SCHEME: []}, {}]
     return document
@@ -215,7 +208,7 @@ def _tell_defaults(schemas: dict[str, Any]) -> None:
     Generators take a field with a `default` for one that is always there, as it is in answers, and
     would have callers send all of them.
     """
-    for name in _read(schemas, _models("validation")):
+    for name in _read(schemas, _MODELS["validation"]):
         for field in schemas[name].get("properties", {}).values():
             value = field.get("default")
             if "const" in field or "default" not in field:
@@ -252,8 +245,6 @@ def _read(schemas: dict[str, Any], models: Iterable[type[BaseModel]]) -> set[str
 
 
 def _complete_operation(operation: dict[str, Any]) -> None:
-    if _is_fastapi_error(operation):
-        del operation["responses"]["422"]
     for parameter in operation.get("parameters", ()):
         _drop_null(parameter["schema"])
     for examples, content in _with_examples(operation):
@@ -262,7 +253,6 @@ def _complete_operation(operation: dict[str, Any]) -> None:
         if "$ref" in answer:
             # FastAPI adds a description of its own.
             answer.pop("description", None)
-    operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
 
 
 def _with_examples(operation: dict[str, Any]) -> Iterator[tuple[Examples, dict[str, Any]]]:
@@ -282,27 +272,3 @@ def _drop_null(schema: dict[str, Any]) -> None:
     if len(kinds) == 1:
         del schema["anyOf"]
         schema |= kinds[0]
-
-
-def _models(mode: str) -> tuple[type[BaseModel], ...]:
-    if mode == "validation":
-        return (
-            FitRequest,
-            ProductRequest,
-            BodyRequest,
-            InitialPoseRequest,
-            PointsRequest,
-        )
-    return (
-        Problem,
-        EventData,
-        BodyEstimate,
-        InitialPose,
-        PointsProposal,
-        UploadedImage,
-        WebhookEvent,
-    )
-
-
-def _is_fastapi_error(operation: dict[str, Any]) -> bool:
-    return "$ref" not in operation["responses"].get("422", {"$ref": "none"})

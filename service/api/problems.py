@@ -222,7 +222,7 @@ ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
     "/{slug}",
     response_model=ProblemType,
     summary="What a problem type means",
-    responses=documented("not-found"),
+    responses=documented("not-found", "invalid-request"),
 )
 def get_problem_type(
     slug: Annotated[str, Path(json_schema_extra={"enum": list(PROBLEM_TYPES)})],

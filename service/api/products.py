@@ -4,37 +4,50 @@ They lie below their fit and in its storage: whoever may see the fit may see the
 gone so are they.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any, Final
+from typing import Annotated, Final
 from uuid import uuid4
 
 from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import FieldProblem
+from api_schemas.problems import FieldProblem, problem
 from api_schemas.products import AnyProductOptions, Product, ProductRequest, product_id
-from service.api.acceptance import Prefer, accepted_job, preferred_wait_s, wait_for_end
-from service.api.context import ApiContext, Context
-from service.api.files import (
-    NEGOTIATION,
-    FileName,
-    Wanted,
-    answer_file,
-    file_answers,
-    stored_content,
+from api_schemas.products.bodies import LEAST_OWN_TEXTURE, TEXTURE_SIZES, AnimationOptions
+from api_schemas.products.documents import (
+    MAX_CHART_BYTES,
+    NOT_A_CHART,
+    ChartError,
+    SizeOptions,
+    ease_faults,
+    read_chart,
 )
+from fitter.applications.bvh import MAX_BYTES
+from fitter.applications.motion_file import read_motion
+from fitter.errors import InvalidInputError
+from service.api.context import ApiContext, Context
+from service.api.events import Prefer, preferred_wait_s, wait_for_end
+from service.api.files import FORMATS, FileName, Wanted, answer_file, chosen_rendition, file_answers
 from service.api.fits import FIT_PROBLEMS, Found, no_result
-from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
 from service.api.problems import ProblemError, documented, not_found
-from service.api.product_parts import FORM_PARTS
-from service.api.renditions import chosen_rendition
-from service.api.storage import disk_full, erase_at_once, storing
-from service.api.uploads import MULTIPART, file_part, read_request_and_files
-from service.jobs.inputs import RESULT, product_inputs
-from service.jobs.records import ACTIVE, JobRecord, NewJob, StoredBlob, Submission, SubmitOutcome
+from service.api.requests import (
+    JSON,
+    MULTIPART,
+    REQUEST,
+    Part,
+    body,
+    form_content,
+    json_content,
+    json_part,
+    read_json_or_form,
+)
+from service.api.storage import disk_full, erase_at_once, store, stored_content, storing
+from service.api.submissions import accepted_job
+from service.jobs.inputs import CHART, CLIP, RESULT, TEXTURE, product_inputs
+from service.jobs.records import ACTIVE, JobRecord, NewJob, Submission, SubmitOutcome
 from service.representation.jobs import FITS, POLL_AFTER_S
 from service.representation.products import (
     PRODUCTS,
@@ -42,26 +55,29 @@ from service.representation.products import (
     product_path,
     represent_product,
 )
-from service.submissions.refusal import parsed, refused
+from service.submissions.image_header import ReadHeader
+from service.submissions.refusal import RefusedError, refused
+from service.submissions.submission import check_picture
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 
-_BODY: Final[dict[str, Any]] = {
-    "required": True,
-    "content": {
-        JSON: json_content(ProductRequest),
-        MULTIPART: {
-            "schema": {
-                "type": "object",
-                "additionalProperties": False,
-                "required": ["request"],
-                "properties": {"request": json_content(ProductRequest)["schema"]}
-                | {name: file_part(part.description) for name, part in FORM_PARTS.items()},
-            },
-            "encoding": {"request": {"contentType": JSON}}
-            | {name: {"contentType": part.media_types} for name, part in FORM_PARTS.items()},
-        },
-    },
+_PARTS: Final = {
+    REQUEST: json_part(ProductRequest),
+    CLIP: Part(
+        description="A motion as a BVH file. Joints are known by the names of many programs, such "
+        "as CMU, Mixamo, Biovision, SMPL or Unreal; `joints` names them otherwise. Its rest pose "
+        "does not matter.",
+        media_types="text/plain, application/octet-stream",
+    ),
+    TEXTURE: Part(
+        description="A painted atlas, square, in the layout of `atlas.png` of any texture of the "
+        "fit: JPEG, PNG or WebP, for colours `own`.",
+    ),
+    CHART: Part(
+        description="A size chart as CSV: a header `size,chest_girth,waist_girth_navel` with the "
+        "names of measurements, then a row for each size, `M,94-98,80-84`, in centimetres.",
+        media_types="text/csv, text/plain, application/octet-stream",
+    ),
 }
 
 _FILE_TYPES: Final = ("image/jpeg", "image/png", "image/webp", "text/html")
@@ -75,7 +91,7 @@ ProductId = Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
     status_code=202,
     response_model=Product,
     summary="Ask for a product",
-    openapi_extra={"requestBody": _BODY},
+    openapi_extra=body(json=json_content(ProductRequest), form=form_content(_PARTS)),
     responses={
         200: {"model": Product, "description": "It is there, or making it has failed."},
         202: {
@@ -107,7 +123,9 @@ async def make_product(
     waits for its end. A file comes along as a part of a form, whose part `request` is the JSON:
     `curl -F 'request={"kind": "size"}' -F chart=@chart.csv .../products`.
     """
-    options, sent = await _read(request, context)
+    received = await read_json_or_form(request, ProductRequest, _PARTS)
+    options = received.asked.root
+    sent = await run_in_threadpool(_checked, options, received.files, context)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
     asked = product_id(options, None if sent is None else sent.content)
@@ -144,19 +162,21 @@ def get_product(fit: Found, product_id: ProductId, response: Response, context: 
 @ROUTER.get(
     "/{product_id}/files/{name}",
     summary="A file of a product",
-    description=f"Return a file: `body_reposed.glb` and so on, as `links.files` says.{NEGOTIATION}",
+    description=f"Return a file: `body_reposed.glb` and so on, as `links.files` says.{FORMATS}",
     response_class=Response,
     responses=file_answers(*_FILE_TYPES, problems=FIT_PROBLEMS),
 )
 async def get_product_file(
     fit: Found, product_id: ProductId, name: FileName, context: Context, wanted: Wanted
 ) -> Response:
-    """Return a file, whole or in part."""
+    """Return a file."""
     product = await run_in_threadpool(_find, context, fit, product_id)
     rendition = chosen_rendition(
         product_files(product), name, state=product.state, accept=wanted.accept
     )
-    return await answer_file(context, rendition, partial(stored_content, context, fit.id), wanted)
+    return await answer_file(
+        context, rendition, partial(stored_content, context.blobs, fit.id), wanted
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -168,26 +188,8 @@ class _Sent:
     media_type: str
 
 
-async def _read(request: Request, context: ApiContext) -> tuple[AnyProductOptions, _Sent | None]:
-    """Read the request: JSON, or a form with it and a file."""
-    if media_type(request) == JSON:
-        text, parts = await read_json_text(request), {}
-        options = parsed(ProductRequest, text, whole="body", called="the body").root
-    elif media_type(request) == MULTIPART:
-        text, parts = await read_request_and_files(request, tuple(FORM_PARTS))
-        options = parsed(ProductRequest, text, whole="request", called="the part 'request'").root
-    else:
-        raise unsupported(
-            request,
-            remedy=f"Send {JSON}, or {MULTIPART} with the parts 'request' and "
-            f"{' or '.join(map(repr, FORM_PARTS))}.",
-            accepted=f"{JSON}, {MULTIPART}",
-        )
-    return options, await run_in_threadpool(_checked, options, parts, context)
-
-
 def _checked(
-    options: AnyProductOptions, parts: Mapping[str, bytes], context: ApiContext
+    options: AnyProductOptions, parts: Mapping[str, Sequence[bytes]], context: ApiContext
 ) -> _Sent | None:
     """Check the part that came along, beside the event loop."""
     taken = options.part
@@ -213,10 +215,92 @@ def _checked(
                 )
             )
         return None
-    kind = FORM_PARTS[taken].check(
-        parts[taken], options, max_pixels=context.settings.max_pixels, read=context.read_header
+    (content,) = parts[taken]
+    kind = _CHECKS[taken](
+        content, options, max_pixels=context.settings.max_pixels, read=context.read_header
     )
-    return _Sent(name=taken, content=parts[taken], media_type=kind)
+    return _Sent(name=taken, content=content, media_type=kind)
+
+
+def _check_motion(clip: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
+    """Read a BVH file: what cannot be made of it is refused now, in the same words."""
+    if len(clip) > MAX_BYTES:
+        raise RefusedError(
+            problem(
+                "payload-too-large",
+                field=CLIP,
+                detail=f"The motion has {len(clip)} bytes, more than {MAX_BYTES}.",
+                remedy="Cut the clip, or lower its frame rate.",
+            )
+        )
+    if isinstance(options, AnimationOptions):
+        try:
+            read_motion(clip, named=options.joints, start_s=options.start_s)
+        except InvalidInputError as error:
+            raise refused(
+                FieldProblem(
+                    field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
+                )
+            ) from error
+    return "text/plain"
+
+
+def _check_texture(
+    texture: bytes, options: AnyProductOptions, *, max_pixels: int, read: ReadHeader
+) -> str:
+    """Check a painted atlas by its header alone; returns its media type."""
+    del options
+    header = check_picture(TEXTURE, texture, max_pixels=max_pixels, read=read)
+    largest = TEXTURE_SIZES[-1]
+    reason = None
+    if header.width != header.height:
+        reason = "is not square, as the atlas is"
+    elif not LEAST_OWN_TEXTURE <= header.width <= largest:
+        reason = f"is not between {LEAST_OWN_TEXTURE} and {largest} texels a side"
+    if reason is not None:
+        raise refused(
+            FieldProblem(
+                field=TEXTURE,
+                code="texture-size",
+                reason=f"The texture, {header.width} x {header.height}, {reason}.",
+                remedy=f"Paint on atlas.png of any texture of this fit, or scale to {largest} x "
+                f"{largest}.",
+            )
+        )
+    return header.media_type
+
+
+def _check_chart(chart: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
+    """Read the chart; returns its media type."""
+    if len(chart) > MAX_CHART_BYTES:
+        raise RefusedError(
+            problem(
+                "payload-too-large",
+                field=CHART,
+                detail=f"The chart has {len(chart)} bytes, more than {MAX_CHART_BYTES}.",
+                remedy="Send the sizes of one garment alone.",
+            )
+        )
+    try:
+        read = read_chart(chart)
+    except ChartError as error:
+        raise refused(
+            FieldProblem(field=CHART, code=NOT_A_CHART, reason=str(error), remedy=error.remedy)
+        ) from error
+    assert isinstance(options, SizeOptions)
+    faults = ease_faults(options, read)
+    if faults:
+        raise refused(*faults)
+    return "text/csv"
+
+
+_CHECKS: Final[Mapping[str, Callable[..., str]]] = {
+    CLIP: _check_motion,
+    TEXTURE: _check_texture,
+    CHART: _check_chart,
+}
+"""Each is given a file, what is asked for, the most pixels a picture may have, and what reads its
+header; it returns the file's media type."""
 
 
 def _submit(
@@ -235,9 +319,7 @@ def _submit(
     if not context.disk.has_room_for(len(text) + (0 if sent is None else len(sent.content))):
         raise disk_full()
 
-    def stored(content: bytes, media_type: str) -> StoredBlob:
-        return StoredBlob(digest=context.blobs.put(fit.id, content), media_type=media_type)
-
+    stored = partial(store, context.blobs, fit.id)
     part = {} if sent is None else {sent.name: stored(sent.content, sent.media_type)}
     job = NewJob(
         id=str(uuid4()),
@@ -262,5 +344,5 @@ def _find(context: ApiContext, fit: JobRecord, asked: str) -> JobRecord:
 
 def _represented(context: ApiContext, product: JobRecord) -> Product:
     document = product.made.get(RESULT)
-    result = None if document is None else stored_content(context, product.scope, document)
+    result = None if document is None else stored_content(context.blobs, product.scope, document)
     return represent_product(product, result)

@@ -1,13 +1,13 @@
-"""What the storage cannot do, as problems: keep more, or erase now."""
+"""The storage of blobs, its troubles as problems."""
 
 import contextlib
 from collections.abc import Iterable, Iterator
 from typing import Final
 
 from api_schemas.problems import problem
-from service.api.problems import ProblemError
-from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
-from service.jobs.records import EngineFullError
+from service.api.problems import ProblemError, not_found
+from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.records import EngineFullError, StoredBlob
 
 RETRY_WHEN_FULL_S: Final = 60
 """Somebody has to make room first."""
@@ -34,6 +34,19 @@ def storing() -> Iterator[None]:
         yield
     except (StorageFullError, EngineFullError) as error:
         raise disk_full() from error
+
+
+def store(blobs: BlobStore, scope: str, content: bytes, media_type: str) -> StoredBlob:
+    """Store a file."""
+    return StoredBlob(digest=blobs.put(scope, content), media_type=media_type)
+
+
+def stored_content(blobs: BlobStore, scope: str, blob: StoredBlob) -> bytes:
+    """Read a file of a fit; 404 if it has been erased in the meantime."""
+    try:
+        return blobs.get(scope, blob.digest)
+    except BlobMissingError as error:
+        raise not_found(what="such fit any more") from error
 
 
 def erase_at_once(blobs: BlobStore, scope: str) -> None:

@@ -1,73 +1,71 @@
-"""Submit one to six pictures of a person: checks, then a fit."""
+"""Submit one to six pictures of a person: read, check, store, and have a fit accepted."""
 
-from collections.abc import Sequence
+import hashlib
+from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any, Final
+from typing import Annotated, Final
+from uuid import uuid4
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Header, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.fit import MOST_VIEWS, FitRequest
-from api_schemas.jobs import Fit
-from api_schemas.problems import FieldProblem
+from api_schemas.jobs import Fit, WebhookTarget
+from api_schemas.problems import FieldProblem, problem
 from api_schemas.questions import BodyRequest
-from service.api.acceptance import (
-    ACCEPTANCE_PROBLEMS,
-    IdempotencyKey,
-    Prefer,
-    accept,
-    accepted,
-    answer,
-    idempotency,
-)
 from service.api.context import ApiContext, Context
-from service.api.fit_inputs import File, Inputs
+from service.api.events import Prefer, preferred_wait_s, wait_for_end
 from service.api.images import image_content
-from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
-from service.api.problems import documented
-from service.api.uploads import MULTIPART, PICTURE_TYPES, file_part, read_fit_form
+from service.api.problems import ProblemError, documented, not_found
+from service.api.requests import (
+    JSON,
+    MULTIPART,
+    REQUEST,
+    Part,
+    Received,
+    body,
+    form_content,
+    json_content,
+    json_part,
+    read_json_or_form,
+)
+from service.api.storage import disk_full, erase_at_once, store, storing
 from service.estimates.questions import BodyTask
 from service.jobs.addresses import target_fault
-from service.jobs.inputs import SentPicture
-from service.representation.jobs import FITS, represent
-from service.submissions.refusal import of_view, parsed, refused
+from service.jobs.inputs import IMAGE, MASK, SentPicture
+from service.jobs.records import (
+    ACTIVE,
+    FIT,
+    Idempotency,
+    JobRecord,
+    NewJob,
+    Submission,
+    SubmitOutcome,
+)
+from service.representation.jobs import FITS, POLL_AFTER_S, fit_path, represent
+from service.submissions.refusal import of_view, refused
 from service.submissions.submission import CheckedSubmission, check_detector, check_submission
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
-_MASK: Final = "A grey picture of its picture's size; the person is brighter than half."
-_BODY: Final[dict[str, Any]] = {
-    "required": True,
-    "content": {
-        MULTIPART: {
-            "schema": {
-                "type": "object",
-                "additionalProperties": False,
-                "required": ["request", "image"],
-                "properties": {
-                    "request": json_content(FitRequest)["schema"],
-                    "image": {
-                        "type": "array",
-                        "minItems": 1,
-                        "maxItems": MOST_VIEWS,
-                        "items": file_part("A picture: JPEG, PNG, WebP or HEIC."),
-                    },
-                    "mask": {
-                        "type": "array",
-                        "maxItems": MOST_VIEWS,
-                        "items": file_part(f"{_MASK} One for each picture; replaces segmentation."),
-                    },
-                },
-            },
-            "encoding": {
-                "request": {"contentType": JSON},
-                "image": {"contentType": PICTURE_TYPES},
-                "mask": {"contentType": PICTURE_TYPES},
-            },
-        },
-        JSON: json_content(FitRequest),
-    },
+_PARTS: Final = {
+    REQUEST: json_part(FitRequest),
+    IMAGE: Part(description="A picture: JPEG, PNG, WebP or HEIC.", least=1, most=MOST_VIEWS),
+    MASK: Part(
+        description="A grey picture of its picture's size; the person is brighter than half. One "
+        "for each picture; replaces segmentation.",
+        most=MOST_VIEWS,
+    ),
 }
+
+IdempotencyKey = Annotated[
+    str | None,
+    Header(
+        min_length=1,
+        max_length=255,
+        description="The same key with the same content answers with the earlier job.",
+    ),
+]
 
 
 @ROUTER.post(
@@ -75,14 +73,29 @@ _BODY: Final[dict[str, Any]] = {
     status_code=202,
     response_model=Fit,
     summary="Submit pictures",
-    openapi_extra={"requestBody": _BODY},
-    responses=accepted()
+    openapi_extra=body(form=form_content(_PARTS), json=json_content(FitRequest)),
+    responses={
+        200: {"model": Fit, "description": "Ended within the time of `Prefer: wait`."},
+        202: {
+            "description": "Accepted.",
+            "headers": {
+                "Location": {"description": "Path of the fit.", "schema": {"type": "string"}},
+                "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+            },
+        },
+    }
     | documented(
         "malformed-request",
         "payload-too-large",
         "unsupported-media-type",
         "unusable-input",
-        *ACCEPTANCE_PROBLEMS,
+        "idempotency-key-reused",
+        "invalid-request",
+        "too-many-requests",
+        "queue-full",
+        "insufficient-storage",
+        "not-ready",
+        "internal-error",
     ),
 )
 async def submit_fit(
@@ -101,46 +114,33 @@ async def submit_fit(
     The same `Idempotency-Key` with the same content answers with the earlier fit. With `Prefer:
     wait=N` (at most 60 s) the answer waits for the fit's end.
     """
-    text, asked, sent = await _read(request, context)
+    received = await read_json_or_form(request, FitRequest, _PARTS)
+    asked = received.asked
+    sent = await run_in_threadpool(_pictures, context, received)
     checked = await run_in_threadpool(_checked, context, asked, sent)
-    inputs = Inputs(
-        options=checked.request.model_dump_json().encode(),
-        files={
-            name: File(content=file.content, media_type=file.media_type)
-            for name, file in checked.files.items()
-        },
-        pictures=len(sent),
-        label=asked.label,
-        webhook=asked.webhook,
-    )
     contents = (content for each in sent for content in (each.image, each.mask or b""))
-    fit = await accept(
-        context,
-        inputs,
-        key=idempotency(idempotency_key, text, *contents),
-        check=partial(_refuse_nobody, context, asked),
-    )
-    return represent(await answer(context, response, fit, prefer=prefer))
+    key = _idempotency(idempotency_key, received.text, *contents)
+    fit = await _accept(context, checked, asked.webhook, key=key)
+    wait_s = preferred_wait_s(prefer)
+    if wait_s > 0:
+        look = partial(context.jobs.job, fit.id)
+        fit = await wait_for_end(context.feed, fit, look, wait_s=wait_s)
+        response.headers["Preference-Applied"] = f"wait={wait_s}"
+    response.headers["Location"] = fit_path(fit.id)
+    if fit.state in ACTIVE:
+        response.headers["Retry-After"] = str(POLL_AFTER_S)
+    elif wait_s > 0:
+        response.status_code = 200
+    return represent(fit)
 
 
-async def _read(
-    request: Request, context: ApiContext
-) -> tuple[bytes, FitRequest, tuple[SentPicture[bytes], ...]]:
-    """Read the request, as JSON text and as its type, and the pictures it speaks of."""
-    if media_type(request) == JSON:
-        text = await read_json_text(request)
-        asked = parsed(FitRequest, text, whole="body", called="the body")
-        return text, asked, await run_in_threadpool(_uploaded, context, asked)
-    if media_type(request) != MULTIPART:
-        raise unsupported(
-            request,
-            remedy=f"Send {MULTIPART} with the parts 'request' and 'image', or {JSON} with the "
-            "image_id of an uploaded picture in every view.",
-            accepted=f"{MULTIPART}, {JSON}",
-        )
-    text, images, masks = await read_fit_form(request, most=MOST_VIEWS)
-    asked = parsed(FitRequest, text, whole="request", called="the part 'request'")
-    return text, asked, _sent_along(asked, images, masks)
+def _pictures(
+    context: ApiContext, received: Received[FitRequest]
+) -> tuple[SentPicture[bytes], ...]:
+    """The pictures that came along, or those that the request names."""
+    if not received.files:
+        return _uploaded(context, received.asked)
+    return _sent_along(received.asked, received.files[IMAGE], received.files.get(MASK, ()))
 
 
 def _sent_along(
@@ -205,6 +205,32 @@ def _checked(
     return checked
 
 
+async def _accept(
+    context: ApiContext,
+    checked: CheckedSubmission,
+    webhook: WebhookTarget | None,
+    *,
+    key: Idempotency | None,
+) -> JobRecord:
+    """Have a fit accepted, or return the earlier one with the same key.
+
+    Raises
+    ------
+    ProblemError
+        If the fit is not accepted.
+    RefusedError
+        If nobody has the measurements; this is asked only of a new fit.
+    """
+    fit_id = str(uuid4())
+    with storing():
+        # From here on the fit's scope is erased automatically unless the fit is accepted.
+        submission = await run_in_threadpool(_reserve, context, fit_id, checked, key)
+        if submission.outcome is SubmitOutcome.ACCEPTED:
+            await _refuse_nobody(context, checked.request)
+            submission = await run_in_threadpool(_store, context, fit_id, checked, webhook, key)
+    return accepted_job(submission)
+
+
 async def _refuse_nobody(context: ApiContext, asked: FitRequest) -> None:
     """Refuse early what the fit would be refused for: measurements that no body combines."""
     if not asked.measurements and asked.weight_kg is None:
@@ -215,4 +241,111 @@ async def _refuse_nobody(context: ApiContext, asked: FitRequest) -> None:
         weight_kg=asked.weight_kg,
         measurements=asked.measurements,
     )
-    await context.estimates.refuse_nobody(BodyTask(request=known, with_glb=False))
+    await context.estimators.refuse_nobody(BodyTask(request=known, with_glb=False))
+
+
+def _idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
+    """Hash a caller's key and the parts of the request that came with it."""
+    if key is None:
+        return None
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(hashlib.sha256(part).digest())
+    return Idempotency(key=hashlib.sha256(key.encode()).hexdigest(), fingerprint=digest.hexdigest())
+
+
+def _reserve(
+    context: ApiContext, fit_id: str, checked: CheckedSubmission, key: Idempotency | None
+) -> Submission:
+    size = sum(len(file.content) for file in checked.files.values())
+    if context.disk.has_room_for(len(_options(checked)) + size):
+        return context.jobs.submissions.reserve(fit_id, key)
+    # Not even the scope is recorded; but repeating an earlier answer takes no space.
+    repeated = context.jobs.submissions.repeated(key)
+    if repeated is None:
+        raise disk_full()
+    return repeated
+
+
+def _store(
+    context: ApiContext,
+    fit_id: str,
+    checked: CheckedSubmission,
+    webhook: WebhookTarget | None,
+    key: Idempotency | None,
+) -> Submission:
+    """Store all inputs in the fit's scope, one file after the other, and submit it."""
+    asked = checked.request
+    stored = partial(store, context.blobs, fit_id)
+    try:
+        job = NewJob(
+            id=fit_id,
+            kind=FIT,
+            options=stored(_options(checked), JSON),
+            inputs={
+                name: stored(file.content, file.media_type) for name, file in checked.files.items()
+            },
+            # While it waits it counts for as many fits.
+            pictures=len(asked.views),
+            label=asked.label,
+            idempotency=key,
+            request_id=context.request_id,
+            webhook=None if webhook is None else stored(webhook.model_dump_json().encode(), JSON),
+        )
+    except Exception:
+        erase_at_once(context.blobs, fit_id)
+        raise
+    # If the database goes away before it answers, it may have accepted the job: the blobs stay.
+    submission = context.jobs.submissions.submit(job)
+    if submission.outcome is not SubmitOutcome.ACCEPTED:
+        erase_at_once(context.blobs, fit_id)
+    return submission
+
+
+def _options(checked: CheckedSubmission) -> bytes:
+    return checked.request.model_dump_json().encode()
+
+
+_REFUSALS: Final[Mapping[SubmitOutcome, Mapping[str, str]]] = {
+    SubmitOutcome.QUEUE_FULL: {
+        "slug": "queue-full",
+        "detail": "The queue of waiting jobs is full.",
+        "remedy": "Try again after the time in Retry-After.",
+    },
+    SubmitOutcome.TENANT_FULL: {
+        "slug": "too-many-requests",
+        "code": "too-many-waiting",
+        "detail": "Too many of your jobs are waiting already.",
+        "remedy": "Try again when some of them have ended.",
+    },
+    SubmitOutcome.LOST: {
+        "slug": "not-ready",
+        "code": "submission-lost",
+        "detail": "The upload took too long and was given up.",
+        "remedy": "Post it again.",
+    },
+}
+
+
+def accepted_job(submission: Submission) -> JobRecord:
+    """Return the job that was accepted, now or earlier.
+
+    Raises
+    ------
+    ProblemError
+        If none was.
+    """
+    if submission.outcome in _REFUSALS:
+        raise ProblemError(problem(**_REFUSALS[submission.outcome]))
+    if submission.outcome is SubmitOutcome.FIT_GONE:
+        raise not_found(what="such fit any more")
+    if submission.job is None:
+        raise ProblemError(
+            problem(
+                "idempotency-key-reused",
+                detail="This Idempotency-Key came earlier with another request.",
+                remedy="Use a new key for every new request.",
+                field="Idempotency-Key",
+            )
+        )
+    return submission.job

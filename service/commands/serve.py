@@ -132,8 +132,7 @@ def serve(
         on_final_end=lambda: os.kill(os.getpid(), signal.SIGTERM),
     )
     # Imported while the worker starts: it takes a second.
-    from service.api.app import create_app
-    from service.api.server import ApiServer
+    from service.api.app import ApiServer, create_app
     from service.compute.lanes import header_lane
     from service.jobs.engine import JobEngine
     from service.jobs.keys import KeyRing

@@ -167,18 +167,20 @@ def check_picture(
             )
         )
     if header.width * header.height > max_pixels:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="image-too-large",
-                reason=(
-                    f"The picture has {header.width} x {header.height} pixels, more than the "
-                    f"{max_pixels} this service accepts."
-                ),
-                remedy="Scale the picture down; 1500 pixels on the longer side are plenty.",
-            )
-        )
+        raise refused(too_many_pixels(field, header.width, header.height, max_pixels))
     return header
+
+
+def too_many_pixels(field: str, width: int, height: int, most: int) -> FieldProblem:
+    """Say that a picture is larger than is accepted."""
+    return FieldProblem(
+        field=field,
+        code="image-too-large",
+        reason=(
+            f"The picture has {width} x {height} pixels, more than the {most} this service accepts."
+        ),
+        remedy="Scale the picture down; 1500 pixels on the longer side are plenty.",
+    )
 
 
 def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:

@@ -15,7 +15,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from service.api.authentication import OPEN
+from service.api.auth import OPEN
 from service.api.events import ITEMS
 from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing

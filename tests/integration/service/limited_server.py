@@ -18,10 +18,9 @@ from fastapi.responses import PlainTextResponse, Response, StreamingResponse
 from starlette.requests import ClientDisconnect
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
-from service.api.body_limits import BodyTimeLimit
+from service.api.app import ApiServer
+from service.api.limits import BodyLimits, RequestLimit
 from service.api.problems import install_problem_handlers
-from service.api.request_limit import RequestLimit
-from service.api.server import ApiServer
 from tests.integration.service.harness import PATIENCE_S, eventually
 
 SHORT_S = 0.3
@@ -87,7 +86,7 @@ def application(
 
     app = FastAPI()
     install_problem_handlers(app)
-    app.add_middleware(BodyTimeLimit, time_limit_s=body_s, bytes_per_s=bytes_per_s)
+    app.add_middleware(BodyLimits, max_bytes=10**9, time_limit_s=body_s, bytes_per_s=bytes_per_s)
     app.add_middleware(RequestLimit, most=most)
     for resource in (quick, held, length, held_length, stream):
         path = f"/{resource.__name__.replace('_', '-')}"

@@ -8,7 +8,7 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from service.api import documentation
+from service.api import pages
 from service.api.problems import install_problem_handlers
 
 Get = Callable[..., httpx.Response]
@@ -27,7 +27,7 @@ def get(tmp_path: Path) -> Get:
 def getting(folder: Path) -> Get:
     app = FastAPI(redirect_slashes=False)
     install_problem_handlers(app)
-    documentation.mount_site(app, folder)
+    pages.mount_site(app, folder)
 
     def get(path: str, **headers: str) -> httpx.Response:
         async def asked() -> httpx.Response:

@@ -142,7 +142,7 @@ def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(serv
         assert service.client.get(each).status_code == 404
 
 
-def test_artifacts_have_strong_tags_and_ranges(service: Service):
+def test_files_have_strong_tags(service: Service):
     path = service.submit()
     url = service.ended(path)["links"]["files"]["body_canonical.glb"]
     whole = service.client.get(url)
@@ -150,32 +150,6 @@ def test_artifacts_have_strong_tags_and_ranges(service: Service):
     assert whole.headers["Cache-Control"] == "no-store"
     tag = {"If-None-Match": whole.headers["ETag"]}
     assert service.client.get(url, headers=tag).status_code == 304
-
-    part = service.client.get(url, headers={"Range": "bytes=4-9"})
-    assert part.status_code == 206
-    assert part.content == whole.content[4:10]
-    assert part.headers["Content-Range"] == f"bytes 4-9/{len(whole.content)}"
-    tail = service.client.get(url, headers={"Range": "bytes=-5"})
-    assert tail.content == whole.content[-5:]
-    beyond = service.client.get(url, headers={"Range": f"bytes={len(whole.content)}-"})
-    assert beyond.status_code == 416
-    assert beyond.headers["Content-Range"] == f"bytes */{len(whole.content)}"
-
-
-def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
-    path = service.submit()
-    url = service.ended(path)["links"]["files"]["body_canonical.glb"]
-    whole = service.client.get(url)
-    tag = whole.headers["ETag"]
-    part = {"Range": "bytes=4-9"}
-    same = service.client.get(url, headers=part | {"If-Range": tag})
-    assert (same.status_code, same.content) == (206, whole.content[4:10])
-    for other in (f"W/{tag}", '"another"', "Tue, 05 May 2026 09:30:03 GMT"):
-        beyond = {"Range": f"bytes={len(whole.content)}-"}
-        for asked in (part, beyond, {}):
-            answer = service.client.get(url, headers=asked | {"If-Range": other})
-            assert (answer.status_code, answer.content) == (200, whole.content), (other, asked)
-            assert "Content-Range" not in answer.headers
 
 
 def test_jobs_are_listed_newest_first_in_pages(service: Service):

@@ -7,6 +7,7 @@ import httpx
 import pytest
 
 from api_schemas.service import ServiceIndex
+from service.api.headers import COMPRESSED_FROM_BYTES
 from service.settings import Settings
 from tests.integration.service.harness import Service
 
@@ -70,7 +71,7 @@ def test_files_with_a_hash_in_their_name_are_kept_for_ever_and_come_packed(servi
         file = service.client.get(name, headers={"Accept-Encoding": "gzip"})
         assert file.status_code == 200
         assert "immutable" in file.headers["cache-control"]
-        if name.endswith((".js", ".css")):
+        if name.endswith((".js", ".css")) and len(file.content) >= COMPRESSED_FROM_BYTES:
             assert file.headers["content-encoding"] == "gzip"
         plain = service.client.get(name, headers={"Accept-Encoding": "identity"})
         assert "content-encoding" not in plain.headers
@@ -83,9 +84,7 @@ def test_the_sample_comes_with_its_points(service: Service):
     assert "left_hip" in view["points"]
 
 
-@pytest.mark.parametrize(
-    "name", ["nothing.js", "index.html", "..%2fbuild.mjs", "%2e%2e%2fpackage.json"]
-)
+@pytest.mark.parametrize("name", ["nothing.js", "..%2fbuild.mjs", "%2e%2e%2fpackage.json"])
 def test_nothing_else_is_served(service: Service, name: str):
     answer = service.client.get(f"/page/{name}")
     assert answer.status_code == 404

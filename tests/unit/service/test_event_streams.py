@@ -4,7 +4,6 @@ import asyncio
 import threading
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -51,11 +50,11 @@ def told(number: int, kind: EventKind) -> JobEvent:
 
 
 def stream(jobs: Jobs, draining: threading.Event) -> list[str]:
-    context: Any = SimpleNamespace(feed=Feed(draining))
+    feed: Any = Feed(draining)
     absent: Any = jobs
 
     async def read() -> list[str]:
-        return [part.decode() async for part in events._stream(context, absent, "a", 0)]
+        return [part.decode() async for part in events._stream(feed, absent, "a", 0)]
 
     return asyncio.run(read())
 

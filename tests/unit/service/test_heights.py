@@ -61,7 +61,7 @@ def test_heights_of_children_are_refused_as_such():
 def test_the_range_is_that_of_body_models_and_that_of_the_contract():
     range_m = (LEAST_HEIGHT_M, MOST_HEIGHT_M)
     stated = BodyModels(models=())
-    document = complete_openapi({"paths": {}})
+    document = complete_openapi({"paths": {}, "components": {"schemas": {}}})
     limits = document["x-limits"]["height_m"]
     assert (stated.min_height_m, stated.max_height_m) == range_m
     assert (limits["least"], limits["most"]) == range_m

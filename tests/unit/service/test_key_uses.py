@@ -3,7 +3,7 @@
 import asyncio
 import threading
 
-from service.api.credentials import BETWEEN_NOTES_S, KeyUses
+from service.api.auth import BETWEEN_NOTES_S, KeyUses
 from service.jobs.records import EngineUnavailableError
 
 PATIENCE_S = 600.0

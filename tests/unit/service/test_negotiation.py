@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.api.negotiation import preferred
+from service.api.files import preferred
 
 OFFERED = ("model/gltf-binary", "model/obj", "text/csv")
 

@@ -8,8 +8,7 @@ import pytest
 from starlette.requests import ClientDisconnect
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.metrics import ServiceMetrics
-from service.api.observation import Observation
+from service.api.observation import Observation, ServiceMetrics
 from service.jobs.engine import JobEngine
 from service.process.data_folder import Disk
 

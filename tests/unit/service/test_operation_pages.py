@@ -5,9 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from service.api.acceptance import MAX_WAIT_S
-from service.api.events import PING_S
-from service.api.server import IDLE_S
+from service.api.app import IDLE_S
+from service.api.events import MAX_WAIT_S, PING_S
 from service.jobs.tables import METADATA
 from service.settings import PREFIX, Settings
 from tests.readme import block

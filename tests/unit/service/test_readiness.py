@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from api_schemas.service import Ready
+from service.api.health import Look, Readiness, not_ready
 from service.api.problems import ProblemError
-from service.api.readiness import Look, Readiness, not_ready
 from service.jobs.records import EngineUnavailableError
 
 PATIENCE_S = 600.0

@@ -7,13 +7,13 @@ import pytest
 from api_schemas.problems import FieldProblem, Problem, field_problem
 from api_schemas.questions import BodyRequest, PointsRequest
 from fitter.vocabulary.choices import Gender
-from service.api.estimates import Estimates
-from service.api.metrics import ServiceMetrics
+from service.api.estimators import Estimators
+from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.compute.tasks import Parts
-from service.estimates.questions import FILE, QUESTION, BodyTask
+from service.estimates.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.process.data_folder import Disk
 from service.representation.formats import OBJ
 from service.submissions.refusal import RefusedError
@@ -47,8 +47,8 @@ class Troubled:
         return Received(ProblemMessage(problem=self.problem), {})
 
 
-def troubled(problem: Problem) -> Estimates:
-    return Estimates(Troubled(problem), METRICS, estimators=1)
+def troubled(problem: Problem) -> Estimators:
+    return Estimators(Troubled(problem), METRICS, estimators=1)
 
 
 @pytest.mark.parametrize(
@@ -60,8 +60,8 @@ def troubled(problem: Problem) -> Estimates:
     ],
 )
 def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
-    estimates = troubled(problem)
-    for question in (estimates.body(TASK), estimates.convert(b"glTF", OBJ)):
+    estimators = troubled(problem)
+    for question in (estimators.answer(BODY, TASK), estimators.convert(b"glTF", OBJ)):
         with pytest.raises(ProblemError) as caught:
             asyncio.run(question)
         assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
@@ -69,13 +69,11 @@ def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
 
 
 def test_a_detector_that_is_not_there_is_told_with_what_to_install():
-    estimates = troubled(no_detector())
-    for question in (estimates.points(PointsRequest(), b"a picture"),):
-        with pytest.raises(ProblemError) as caught:
-            asyncio.run(question)
-        told = caught.value.problem
-        assert (told.status, told.code) == (404, "detector-not-installed")
-        assert "pip install" in told.remedy
+    with pytest.raises(ProblemError) as caught:
+        asyncio.run(troubled(no_detector()).answer(POINTS, PointsRequest(), b"a picture"))
+    told = caught.value.problem
+    assert (told.status, told.code) == (404, "detector-not-installed")
+    assert "pip install" in told.remedy
 
 
 def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():
@@ -83,7 +81,7 @@ def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():
         asyncio.run(troubled(NOBODY).refuse_nobody(TASK))
     for problem in (UNAVAILABLE, TIMED_OUT, FAILED):
         estimator = Troubled(problem)
-        asyncio.run(Estimates(estimator, METRICS, estimators=1).refuse_nobody(TASK))
+        asyncio.run(Estimators(estimator, METRICS, estimators=1).refuse_nobody(TASK))
         (question,) = estimator.asked
         assert not question.patient
 
@@ -95,8 +93,8 @@ def test_a_file_goes_along_and_comes_back():
         asked.append((question, parts))
         return Received(DoneMessage(parts=(FILE,)), {FILE: b"v 0 0 0"})
 
-    estimates = Estimates(ask, METRICS, estimators=1)
-    assert asyncio.run(estimates.convert(b"glTF", OBJ)) == b"v 0 0 0"
+    estimators = Estimators(ask, METRICS, estimators=1)
+    assert asyncio.run(estimators.convert(b"glTF", OBJ)) == b"v 0 0 0"
     ((question, parts),) = asked
     assert (question.task, question.parts) == ("conversion", (QUESTION, FILE))
     assert parts == {QUESTION: b'{"ending":"obj"}', FILE: b"glTF"}

@@ -1,10 +1,13 @@
-"""Headers that keep browsers from doing anything with a response that it is not meant for."""
+"""Headers of every answer: what browsers may do with it; and which answers are compressed."""
 
 from collections.abc import Mapping
 from typing import Final
 
 from starlette.datastructures import MutableHeaders
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from service.representation.formats import GLB, STL
 
 NOTHING: Final = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 """For responses that are not pages: opened in a browser, they may load and run nothing."""
@@ -47,6 +50,17 @@ UNLESS_SAID: Final[Mapping[str, str]] = {
     "Cache-Control": "no-store",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
+
+COMPRESSED_FROM_BYTES: Final = 1_000
+LEFT_AS_THEY_ARE: Final = (
+    *DEFAULT_EXCLUDED_CONTENT_TYPES,
+    "application/octet-stream",
+    "image/*",
+    GLB,
+    STL.media_type,
+)
+"""Event streams, and what is compressed already or, as floating-point numbers are, hardly gets
+smaller."""
 
 
 class SecurityHeaders:

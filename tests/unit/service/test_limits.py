@@ -1,4 +1,4 @@
-"""A body is late by the time the service waited for it, and by no other."""
+"""Limits: a bucket of requests for each key, and bodies that are late by what was waited for."""
 
 import asyncio
 import json
@@ -8,12 +8,13 @@ from typing import Any
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.body_limits import BodyTimeLimit
+from service.api.limits import BodyLimits, RateLimit
 from service.api.problems import ProblemError
 
 LIMIT_S = 0.2
 FOREVER_S = 600.0
 PIECE = 1000
+MOST_BYTES = 10**6
 OVERDUE_S = 2 * LIMIT_S
 
 
@@ -69,7 +70,9 @@ def answered(
         "query_string": b"",
         "headers": list(headers),
     }
-    limited = BodyTimeLimit(application, time_limit_s=LIMIT_S, bytes_per_s=bytes_per_s)
+    limited = BodyLimits(
+        application, max_bytes=10**9, time_limit_s=LIMIT_S, bytes_per_s=bytes_per_s
+    )
     asyncio.run(limited(scope, receive, send))
     return sent
 
@@ -181,3 +184,45 @@ def test_another_problem_is_not_taken_for_lateness():
 
     with pytest.raises(ValueError):  # noqa: PT011
         answered(in_time, application=fails)
+
+
+KEY = "0123abcd"
+
+
+class Clock:
+    """A clock that is set by hand."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+def test_a_burst_passes_and_the_next_request_is_told_when():
+    limit = RateLimit(per_minute=30, monotonic=Clock())
+    assert [limit.take(KEY) for _ in range(31)] == [0] * 30 + [2]
+
+
+def test_requests_pass_at_the_rate():
+    clock = Clock()
+    limit = RateLimit(per_minute=30, monotonic=clock)
+    for _ in range(30):
+        limit.take(KEY)
+    clock.now += 1.5
+    assert limit.take(KEY) == 1
+    clock.now += 0.5
+    assert [limit.take(KEY), limit.take(KEY)] == [0, 2]
+
+
+def test_a_bucket_does_not_overflow():
+    clock = Clock()
+    limit = RateLimit(per_minute=30, monotonic=clock)
+    limit.take(KEY)
+    clock.now += 3_600.0
+    assert [limit.take(KEY) for _ in range(31)].count(0) == 30
+
+
+def test_keys_do_not_share_a_bucket():
+    limit = RateLimit(per_minute=1, monotonic=Clock())
+    assert [limit.take(KEY), limit.take("other"), limit.take(KEY)] == [0, 0, 60]

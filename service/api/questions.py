@@ -1,0 +1,240 @@
+"""Questions that are answered at once: points of a picture, initial poses, and bodies."""
+
+import base64
+from enum import Enum
+from typing import Final
+
+from fastapi import APIRouter, Request, Response
+from starlette.concurrency import run_in_threadpool
+
+from api_schemas.points import PointsFormat
+from api_schemas.problems import FieldProblem, problem
+from api_schemas.questions import (
+    BodyEstimate,
+    BodyRequest,
+    ImageSize,
+    InitialPose,
+    InitialPoseRequest,
+    PointsProposal,
+    PointsRequest,
+)
+from api_schemas.service import BodyModels
+from service.api.context import ApiContext, Context
+from service.api.files import BINARY, AcceptHeader, not_acceptable, preferred
+from service.api.images import image_content, known_image
+from service.api.problems import ProblemError, documented
+from service.api.requests import (
+    JSON,
+    REQUEST,
+    Part,
+    body,
+    form_content,
+    json_content,
+    json_part,
+    read_json,
+    read_json_or_form,
+)
+from service.estimates import questions
+from service.estimates.questions import ANSWER, FILE, BodyTask, InitialPoseTask
+from service.jobs.inputs import IMAGE
+from service.representation.csv_tables import CSV, measurements_csv
+from service.representation.formats import GLB, MESH_FORMATS
+from service.submissions.refusal import refused
+from service.submissions.submission import (
+    checked_points,
+    detector_is_installed,
+    no_detector,
+    placed_question,
+    too_many_pixels,
+)
+
+ROUTER: Final = APIRouter()
+ESTIMATES: Final[list[str | Enum]] = ["estimates"]
+
+PROBLEMS: Final = (
+    "malformed-request",
+    "payload-too-large",
+    "unsupported-media-type",
+    "invalid-request",
+    "unusable-input",
+    "not-ready",
+    "internal-error",
+)
+"""Problems with a question or with the estimator."""
+
+NOT_KEPT: Final = {"Cache-Control": "no-store"}
+
+_PARTS: Final = {
+    IMAGE: Part(description="JPEG, PNG, WebP or HEIC.", least=1),
+    REQUEST: json_part(PointsRequest, least=0),
+}
+_BY_MEDIA_TYPE: Final = {each.media_type: each for each in MESH_FORMATS.values()}
+_FORMS_OF_A_BODY: Final = (JSON, GLB, *_BY_MEDIA_TYPE, CSV)
+
+
+@ROUTER.post(
+    "/v1/points",
+    tags=ESTIMATES,
+    response_class=Response,
+    summary="Propose the points of a person, and check the picture",
+    openapi_extra=body(form=form_content(_PARTS), json=json_content(PointsRequest)),
+    responses={
+        200: {
+            "description": "Who was found, the points of one of them, and what is wrong with the "
+            "picture; nobody and a bad picture are no error.",
+            "content": {JSON: json_content(PointsProposal)},
+        }
+    }
+    | documented("not-found", *PROBLEMS),
+)
+async def propose_points(request: Request, context: Context) -> Response:
+    """Return who is in a picture, where a detector sees their joints, and what is wrong with it.
+
+    The picture comes along, or was uploaded to `/v1/images` before: then the body is JSON and names
+    it by `image_id`. `points` can be sent with a fit as they are; what is `doubtful` is better
+    looked at first. Points that somebody moved are sent without `source`, or as clicks.
+
+    Say in `view` from where the person is to be seen, and in `height_m` and the focal length what
+    is known: how near the camera was follows from them.
+
+    The detector is optional: where it is not installed only what known `points` tell is checked,
+    and `not_checked` names the rest; without points the answer is a 404 whose code is
+    `detector-not-installed`.
+    """
+    received = await read_json_or_form(request, PointsRequest, _PARTS)
+    asked = received.asked
+    if received.files:
+        (image,) = received.files[IMAGE]
+    elif asked.image_id is not None:
+        image = await run_in_threadpool(image_content, context, asked.image_id, field="image_id")
+    else:
+        raise refused(
+            FieldProblem(
+                field="image_id",
+                code="missing",
+                reason="The picture is missing.",
+                remedy="Send the id of an uploaded picture, or a form with the part 'image'.",
+            )
+        )
+    settings = context.settings
+    placed = await run_in_threadpool(
+        placed_question, asked, image, max_pixels=settings.max_pixels, read=context.read_header
+    )
+    if not placed.points and not detector_is_installed(settings.detector_dir):
+        raise ProblemError(no_detector())
+    parts = await context.estimators.answer(questions.POINTS, placed, image)
+    proposal = PointsProposal.model_validate_json(parts[ANSWER])
+    if parts[FILE]:
+        mask = base64.b64encode(parts[FILE]).decode()
+        proposal = proposal.model_copy(update={"mask": mask})
+    return Response(proposal.model_dump_json(), media_type=JSON, headers=NOT_KEPT)
+
+
+@ROUTER.post(
+    "/v1/initial-poses",
+    tags=ESTIMATES,
+    response_class=Response,
+    summary="Pose a body by clicks alone",
+    openapi_extra=body(json=json_content(InitialPoseRequest)),
+    responses={200: {"model": InitialPose, "description": "The initial body, seen by its camera."}}
+    | documented(*PROBLEMS),
+)
+async def estimate_initial_pose(request: Request, context: Context) -> Response:
+    """Return pose, camera and outline of the body a fit would begin from.
+
+    With how far each click is from it, and the limbs of which the clicks do not say whether they
+    come towards the camera: say so in `limb_facing`. The picture is not looked at; its size is
+    needed, and the focal length its EXIF data name if it was uploaded.
+    """
+    asked = (await read_json(request, InitialPoseRequest)).asked
+    size, exif_focal_length_35mm = await _picture(context, asked)
+    points = checked_points(asked.points, asked.format, width=size.width, height=size.height)
+    task = InitialPoseTask(
+        subject=asked.model_copy(update={"points": points, "format": PointsFormat.NAMED}),
+        width=size.width,
+        height=size.height,
+        exif_focal_length_35mm=exif_focal_length_35mm,
+    )
+    parts = await context.estimators.answer(questions.INITIAL_POSE, task)
+    return Response(parts[ANSWER], media_type=JSON, headers=NOT_KEPT)
+
+
+async def _picture(
+    context: ApiContext, asked: InitialPoseRequest
+) -> tuple[ImageSize, float | None]:
+    """The picture's size and the 35 mm equivalent it records, if known."""
+    if asked.image_id is not None:
+        record = await run_in_threadpool(known_image, context, asked.image_id, field="image_id")
+        return ImageSize(width=record.width, height=record.height), record.focal_length_35mm
+    size, most = asked.image_size, context.settings.max_pixels
+    assert size is not None, "the type wants exactly one of the two"
+    if size.width * size.height > most:
+        raise refused(too_many_pixels("image_size", size.width, size.height, most))
+    return size, None
+
+
+@ROUTER.post(
+    "/v1/bodies",
+    tags=ESTIMATES,
+    response_class=Response,
+    summary="Estimate a body from measurements",
+    openapi_extra=body(json=json_content(BodyRequest)),
+    responses={
+        200: {
+            "description": "The most probable body; as a file if `Accept` asks for one.",
+            "content": dict.fromkeys(_FORMS_OF_A_BODY, BINARY) | {JSON: json_content(BodyEstimate)},
+        }
+    }
+    | documented("not-acceptable", *PROBLEMS),
+)
+async def estimate_body(
+    request: Request, context: Context, accept: AcceptHeader = None
+) -> Response:
+    """Return the most probable body of a gender and of any known measurements.
+
+    With its measurements, between which values 95 % of such people lie, and the mesh if asked for:
+    by `include_glb` in the JSON, by `Accept: model/gltf-binary`, `model/obj`, `model/ply` or
+    `model/stl` as the file itself. `Accept: text/csv` answers with the
+    measurements as a table. Of types wanted alike the one named first counts.
+    """
+    wanted = preferred(accept, _FORMS_OF_A_BODY)
+    if wanted is None:
+        raise not_acceptable(accept, what="A body", offered=_FORMS_OF_A_BODY)
+    asked = (await read_json(request, BodyRequest)).asked
+    as_mesh = wanted == GLB or wanted in _BY_MEDIA_TYPE
+    task = BodyTask(request=asked, with_glb=as_mesh or (asked.include_glb and wanted == JSON))
+    parts = await context.estimators.answer(questions.BODY, task)
+    content, glb = parts[ANSWER], parts[FILE]
+    if wanted == GLB:
+        content = glb
+    elif as_mesh:
+        content = await context.estimators.convert(glb, _BY_MEDIA_TYPE[wanted])
+    elif wanted == CSV:
+        estimate = BodyEstimate.model_validate_json(content)
+        content = measurements_csv(estimate.measurements)
+    elif asked.include_glb:
+        estimate = BodyEstimate.model_validate_json(content)
+        with_mesh = estimate.model_copy(update={"glb": base64.b64encode(glb).decode()})
+        content = with_mesh.model_dump_json().encode()
+    return Response(content, media_type=wanted, headers=NOT_KEPT | {"Vary": "Accept"})
+
+
+@ROUTER.get(
+    "/v1/body-models",
+    tags=["body models"],
+    response_model=BodyModels,
+    summary="The bodies there are",
+    responses=documented("invalid-request", "not-ready", "internal-error"),
+)
+def list_body_models(context: Context) -> BodyModels:
+    """Return genders, mean heights, landmarks, accepted points, versions and provenance."""
+    known = context.engine.body_models()
+    if known is None:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                detail="No worker has started yet, and only workers know the bodies.",
+                remedy="Start a worker, or try again in a moment.",
+            )
+        )
+    return known
