@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import sqlalchemy as sa
-from dbos import DBOSClient, DBOSPortableJSONSerializer
+from dbos import DBOSClient
 
 from api_schemas.jobs import EventData, EventKind, JobState
 from api_schemas.service import BodyModels
@@ -19,7 +19,7 @@ from service.jobs.database import (
     read_fact,
     touch_fact,
 )
-from service.jobs.executions import APPLICATION
+from service.jobs.executions import client_of
 from service.jobs.images import TenantImages
 from service.jobs.liveness import WorkerWatch
 from service.jobs.notices import Notices
@@ -227,14 +227,8 @@ class JobEngine:
         self._image_quota = image_quota
         self._retention_s = retention_s
         self._heartbeat_s = heartbeat_s
-        self._client = DBOSClient(
-            system_database_engine=database,
-            serializer=DBOSPortableJSONSerializer(),
-            application_name=APPLICATION,
-            # A request is to be refused while the database is away, not to wait until it is back.
-            retry_connection_errors=False,
-        )
-        notices = Notices(database)
+        self._client = client_of(database)
+        notices = Notices(self._client)
         self._endings = Endings(retention_s=retention_s, notify=notices.enqueue)
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
         self._sweeper = Sweeper(database, self._client, blobs, notices, interval_s=sweep_interval_s)

@@ -8,7 +8,7 @@ the other.
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields
 
 import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
@@ -125,19 +125,10 @@ class TenantImages:
         None if its scope was considered abandoned and has been erased meanwhile.
         """
         try:
-            with self._database.begin() as connection:
-                earlier = self._renew(connection, image.id)
-                if earlier is not None:
-                    return KeptImage(record=earlier, is_new=False)
-                return self._insert(connection, image)
+            return self._keep(image)
         except IntegrityError:
-            # Two uploads of one picture raced, or an expired one has not been swept yet.
-            with self._database.begin() as connection:
-                _forget(connection, *self._own(image.id), IMAGES.c.expires_at <= time.time())
-                earlier = self._renew(connection, image.id)
-                if earlier is not None:
-                    return KeptImage(record=earlier, is_new=False)
-                return self._insert(connection, image)
+            # Two uploads of one picture raced.
+            return self._keep(image)
 
     @available
     def erase(self, image_id: str) -> Sequence[str]:
@@ -183,31 +174,19 @@ class TenantImages:
         )
         return None if row is None else _record(row)
 
-    def _insert(self, connection: sa.Connection, image: NewImage) -> KeptImage | None:
-        if not take_out(connection, image.scope):
-            return None
+    def _keep(self, image: NewImage) -> KeptImage | None:
         now = time.time()
-        row = (
-            connection.execute(
-                sa.insert(IMAGES)
-                .values(
-                    tenant=self._tenant,
-                    id=image.id,
-                    scope=image.scope,
-                    media_type=image.media_type,
-                    width=image.width,
-                    height=image.height,
-                    size=image.size,
-                    focal_length_35mm=image.focal_length_35mm,
-                    created_at=now,
-                    expires_at=now + self._retention_s,
-                )
-                .returning(IMAGES)
-            )
-            .mappings()
-            .one()
-        )
-        return KeptImage(record=_record(row), is_new=True)
+        with self._database.begin() as connection:
+            # One that has expired may not have been swept yet.
+            _forget(connection, *self._own(image.id), IMAGES.c.expires_at <= now)
+            earlier = self._renew(connection, image.id)
+            if earlier is not None:
+                return KeptImage(record=earlier, is_new=False)
+            if not take_out(connection, image.scope):
+                return None
+            values = asdict(image) | {"created_at": now, "expires_at": now + self._retention_s}
+            connection.execute(sa.insert(IMAGES).values(tenant=self._tenant, **values))
+        return KeptImage(record=ImageRecord(**values), is_new=True)
 
 
 def _forget(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> Sequence[str]:
@@ -222,14 +201,4 @@ def _forget(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> Sequen
 
 
 def _record(row: sa.RowMapping) -> ImageRecord:
-    return ImageRecord(
-        id=row["id"],
-        scope=row["scope"],
-        media_type=row["media_type"],
-        width=row["width"],
-        height=row["height"],
-        size=row["size"],
-        focal_length_35mm=row["focal_length_35mm"],
-        created_at=row["created_at"],
-        expires_at=row["expires_at"],
-    )
+    return ImageRecord(**{each.name: row[each.name] for each in fields(ImageRecord)})

@@ -94,18 +94,8 @@ class KeyRing:
         """Return all keys, oldest first."""
         query = sa.select(API_KEYS).order_by(API_KEYS.c.created_at)
         with self._database.connect() as connection:
-            return [
-                ApiKey(
-                    id=row.id,
-                    tenant=row.tenant,
-                    role=Role(row.role),
-                    secret_hash=row.secret_hash,
-                    created_at=row.created_at,
-                    revoked_at=row.revoked_at,
-                    used_at=row.used_at,
-                )
-                for row in connection.execute(query)
-            ]
+            rows = connection.execute(query).mappings().all()
+        return [ApiKey(**(dict(row) | {"role": Role(row["role"])})) for row in rows]
 
     @available
     def note_use(self, identity: str, *, at: float, unless_since: float) -> None:

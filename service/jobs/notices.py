@@ -20,7 +20,7 @@ from typing import Final
 
 import httpx
 import sqlalchemy as sa
-from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, error
+from dbos import DBOS, DBOSClient, error
 
 from api_schemas.jobs import Fit, WebhookEvent, WebhookEventType, WebhookTarget, secret_key
 from service.jobs.addresses import (
@@ -31,7 +31,7 @@ from service.jobs.addresses import (
     resolve,
 )
 from service.jobs.blobs import BlobMissingError, BlobStore
-from service.jobs.executions import APPLICATION, EXECUTION_VERSION
+from service.jobs.executions import EXECUTION_VERSION, client_of, configure
 from service.jobs.records import JobRecord
 from service.jobs.rows import find_job
 from service.process.logs import fields
@@ -64,14 +64,8 @@ def notice_of(job_id: str) -> str:
 class Notices:
     """Enqueues notices."""
 
-    def __init__(self, database: sa.Engine) -> None:
-        self._client = DBOSClient(
-            system_database_engine=database,
-            serializer=DBOSPortableJSONSerializer(),
-            application_name=APPLICATION,
-            lazy=True,
-            retry_connection_errors=False,
-        )
+    def __init__(self, client: DBOSClient) -> None:
+        self._client = client
 
     def enqueue(self, connection: sa.Connection, job: JobRecord) -> None:
         """Have the end of a job told, in the transaction that ends it, if anybody asked for it."""
@@ -110,21 +104,12 @@ class NoticeRunner:
 
     def start(self) -> None:
         """Begin to send what is enqueued, and what this machine's last process left."""
-        DBOS(
-            config={
-                "name": APPLICATION,
-                "system_database_engine": self._database,
-                "serializer": DBOSPortableJSONSerializer(),
-                "executor_id": f"notices-{os.uname().nodename[:40]}",
-                "application_version": EXECUTION_VERSION,
-                "run_migrations": False,
-                # What is retried is a warning of its own.
-                "log_level": "ERROR",
-            }
-        )
+        # What is retried is a warning of its own.
+        executor_id = f"notices-{os.uname().nodename[:40]}"
+        configure(self._database, executor_id=executor_id, log_level="ERROR")
         self._register()
         DBOS.listen_queues([QUEUE])
-        Notices(self._database).declare_queue()
+        Notices(client_of(self._database)).declare_queue()
         DBOS.launch()
 
     def stop(self) -> None:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
+from dbos import DBOS, SetWorkflowID, error
 
 from api_schemas.service import BodyModels
 from service.jobs.attempts import (
@@ -28,11 +28,11 @@ from service.jobs.blobs import BlobStore, BlobsUnavailableError
 from service.jobs.claims import Claims
 from service.jobs.database import ABSENCES, BODY_MODELS_FACT, write_fact
 from service.jobs.executions import (
-    APPLICATION,
-    EXECUTION_VERSION,
     FAILED,
     WORKFLOW,
     Executions,
+    client_of,
+    configure,
     queue_of,
 )
 from service.jobs.heartbeat import Heartbeat
@@ -53,9 +53,6 @@ AWAY_PAUSE_S: Final = 1.0
 
 CLAIM_ENDS_S: Final = 5.0
 """How long a worker that stops waits for the claim it may be about."""
-
-OUTCOME_WAIT_S: Final = 2.0
-OUTCOME_POLL_S: Final = 0.02
 
 
 class WorkerEngine:
@@ -82,8 +79,9 @@ class WorkerEngine:
         self._is_able = is_able
         self._is_holding_back = False
         self._slots = WorkerSlots(processes, poll_s=QUEUE_POLL_S)
-        self._executions = Executions(database)
-        endings = Endings(retention_s=retention_s, notify=Notices(database).enqueue)
+        client = client_of(database)
+        self._executions = Executions(client)
+        endings = Endings(retention_s=retention_s, notify=Notices(client).enqueue)
         self._claims = Claims(database, executor_id=self.executor_id, endings=endings)
         self._attempts = AttemptLog(
             database,
@@ -116,17 +114,7 @@ class WorkerEngine:
         While the worker is not able to run any, jobs are left waiting, for this one or another,
         and each heartbeat says so.
         """
-        DBOS(
-            config={
-                "name": APPLICATION,
-                "system_database_engine": self._database,
-                "serializer": DBOSPortableJSONSerializer(),
-                "executor_id": self.executor_id,
-                "application_version": EXECUTION_VERSION,
-                "run_migrations": False,
-                "log_level": "WARNING",
-            }
-        )
+        configure(self._database, executor_id=self.executor_id, log_level="WARNING")
         self._register(handler)
         DBOS.listen_queues([queue_of(self.executor_id)])
         with self._database.begin() as connection:
@@ -149,8 +137,6 @@ class WorkerEngine:
         if not self._slots.all_left(within_s=drain_s):
             self._handing_back.set()
             self._attempts.hand_back()
-        else:
-            self._wait_for_outcomes()
         self._heartbeat.stop()
 
     def _begin_waiting_jobs(self) -> bool:
@@ -195,15 +181,6 @@ class WorkerEngine:
         else:
             self._executions.remove([job_id])
             self._execute(job_id)
-
-    def _wait_for_outcomes(self) -> None:
-        # DBOS records the end of a workflow after the workflow has returned. If the process ended
-        # in between, another worker would needlessly replay the workflow from its checkpoints.
-        deadline = time.monotonic() + OUTCOME_WAIT_S
-        while time.monotonic() < deadline:
-            if not self._executions.held_by(self.executor_id):
-                return
-            time.sleep(OUTCOME_POLL_S)
 
     def _register(self, handler: AttemptHandler) -> None:
         @DBOS.step(name="run")

@@ -8,7 +8,7 @@ from pathlib import Path
 import sqlalchemy as sa
 
 from service.jobs.database import open_database
-from service.jobs.executions import Executions
+from service.jobs.executions import WORKFLOW, client_of
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from service.jobs.tables import ERASURES, JOBS
 from tests.chaos.caller import ACTIVE, Caller
@@ -17,6 +17,7 @@ from tests.chaos.reference import Outcome
 from tests.chaos.run import Course
 from tests.deployment import Deployment, Kind, wait_for
 
+OPEN = ("PENDING", "ENQUEUED", "DELAYED")
 SETTLED_WITHIN_S = 600.0
 LEFT_WITHIN_S = 120.0
 
@@ -89,8 +90,7 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
     finally:
         caller.close()
     database = open_database(_database_url(deployment), connections=2)
-    executions = Executions(database)
-    wait_for(lambda: executions.open() == 0, within_s=SETTLED_WITHIN_S)
+    wait_for(lambda: _open_executions(database) == 0, within_s=SETTLED_WITHIN_S)
     deployment.stop()
     # Helpers of processes that were killed notice it by a pipe that ends.
     wait_for(lambda: not deployment.processes(), within_s=LEFT_WITHIN_S)
@@ -113,7 +113,7 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
         wrong=sum(each.is_wrong for each in found),
         ended_otherwise={state: count for state, count in states.items() if state != "succeeded"},
         ended_unasked=deployment.ended_unasked,
-        open_executions=executions.open(),
+        open_executions=_open_executions(database),
         processes_left=len(deployment.processes()),
         temporary_files=len(list(_blobs(deployment).rglob(".*"))),
         unknown_scopes=len(_scopes(deployment) - _known_scopes(database)),
@@ -124,6 +124,12 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
 
 def _database_url(deployment: Deployment) -> str:
     return deployment.database_url or f"sqlite:///{deployment.folder / 'maquette.sqlite'}"
+
+
+def _open_executions(database: sa.Engine) -> int:
+    """How many jobs DBOS has as waiting or running."""
+    client = client_of(database)
+    return len(client.list_workflows(name=WORKFLOW, status=list(OPEN), load_input=False))
 
 
 def _blobs(deployment: Deployment) -> Path:

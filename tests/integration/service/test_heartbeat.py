@@ -13,13 +13,14 @@ from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.jobs.claims import Claims
 from service.jobs.database import open_database, prepare_database
-from service.jobs.executions import Executions
+from service.jobs.executions import EXECUTION_VERSION, WORKFLOW, Executions, client_of, queue_of
 from service.jobs.heartbeat import DROPPED_AFTER_S, Heartbeat
 from service.jobs.slots import WorkerSlots
-from tests.integration.service.harness import Machine, eventually
+from tests.integration.service.harness import PATIENCE_S, Machine, eventually
 from tests.stored_jobs import ENDINGS, insert_job
 
 AWAY = OperationalError("SELECT 1", {}, ConnectionError("The server is away."))
+NOBODY = "postgresql://postgres@127.0.0.1:1/none"
 NO_CONNECTION = PoolTimeoutError("QueuePool limit of size 8 overflow 0 reached")
 
 
@@ -43,7 +44,7 @@ class Worker:
             interval_s=0.02,
             dead_after_s=60.0,
             claims=self.claims,
-            executions=Executions(database),
+            executions=Executions(client_of(database)),
             slots=self.slots,
             is_able=self._count,
             monotonic=lambda: self.now_s,
@@ -112,3 +113,51 @@ def test_a_job_that_could_not_begin_while_the_database_was_away_is_kept(
     worker.now_s = 4.0 * DROPPED_AFTER_S
     worker.beat()
     assert worker.claims.held() == {"job"}
+
+
+@pytest.fixture
+def database(machine: Machine) -> Iterator[sa.Engine]:
+    url = machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
+    prepare_database(url)
+    opened = open_database(url)
+    yield opened
+    opened.dispose()
+
+
+def test_ended_and_waiting_executions_are_told_apart(database: sa.Engine):
+    client = client_of(database)
+    for job_id in ("waiting", "canceled", "another"):
+        client.enqueue(
+            {
+                "workflow_name": WORKFLOW,
+                "queue_name": queue_of("somebody"),
+                "workflow_id": job_id,
+                "app_version": EXECUTION_VERSION,
+            },
+            job_id,
+        )
+    client.cancel_workflow("canceled")
+    client.cancel_workflow("another")
+    executions = Executions(client)
+    assert executions.ending("canceled") == "CANCELLED"
+    assert executions.ending("waiting") is None
+    assert executions.ending("unknown") is None
+    assert executions.holders() == {}
+    executions.remove(["waiting", "canceled"])
+    assert executions.ending("canceled") is None
+    assert executions.ending("another") == "CANCELLED"
+
+
+def test_a_database_that_is_away_is_told_and_not_waited_for():
+    executions = Executions(client_of(open_database(NOBODY)))
+    told: list[OperationalError] = []
+
+    def look() -> None:
+        with pytest.raises(OperationalError) as caught:
+            executions.holders()
+        told.append(caught.value)
+
+    looking = threading.Thread(target=look, daemon=True)
+    looking.start()
+    looking.join(PATIENCE_S)
+    assert told
