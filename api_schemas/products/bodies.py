@@ -12,9 +12,6 @@ from api_schemas.results import FitWarning, PartRotation
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
 """Sides a texture may have, texels."""
 
-LEAST_OWN_TEXTURE: Final = 64
-"""Side of the smallest texture that may be sent; the largest is the last of those above."""
-
 
 def _texture_size(size: int) -> int:
     if size in TEXTURE_SIZES:
@@ -26,53 +23,28 @@ def _texture_size(size: int) -> int:
     )
 
 
-class TextureColours(StrEnum):
-    """The picture as it is, with its light, or the albedo found in it, to be lit anew.
-
-    ``own`` are those of a painted atlas that comes along as the form's part ``texture``; they are
-    taken for albedo.
-    """
-
-    PICTURE = "picture"
-    ALBEDO = "albedo"
-    OWN = "own"
+TextureColours = Literal[BodyColours.PICTURE, BodyColours.ALBEDO]
+"""The picture as it is, with its light, or the albedo found in it, to be lit anew."""
 
 
 class TextureOptions(ProductOptions):
-    """The picture, or a texture of one's own, laid on the body; albedo needs a fit with shading."""
+    """The picture laid on the body, or the albedo found in it, which needs a fit with shading."""
 
     kind: Literal["texture"]
-    colours: TextureColours = TextureColours.PICTURE
+    colours: TextureColours = BodyColours.PICTURE
     size: Annotated[
         WholeNumber,
         AfterValidator(_texture_size),
         WithJsonSchema({"type": "integer", "enum": list(TEXTURE_SIZES)}),
-    ] = Field(
-        default=1_024, description="Side of the texture, texels; one's own keeps the side it has."
-    )
-
-    @property
-    def part(self) -> str | None:
-        """A painted atlas comes along if the colours are one's own."""
-        return "texture" if self.colours is TextureColours.OWN else None
-
-    @property
-    def part_is_for(self) -> str | None:
-        """The colours come from it."""
-        return None if self.part is None else "these colours are read from"
+    ] = Field(default=1_024, description="Side of the texture, texels.")
 
 
 class TextureResult(ProductResult):
-    """``body_textured.glb``, in the fitted pose, ``texture.png``, ``coverage.png``, ``atlas.png``.
+    """``body_textured.glb``, in the fitted pose, ``texture.png`` and ``coverage.png``.
 
     White texels of the coverage were seen in the picture, grey ones are taken from the other side
-    of the body, black ones continued from their surroundings: these two kinds are invented. A
-    texture of one's own has no coverage, and shares of nothing. An albedo may exceed 1: it is the
-    texture's linear value times ``scale``.
-
-    The atlas is a transparent drawing of the body's parts where the texture has them, with their
-    names: a layer to paint under. Only what lies on the parts counts of what is painted; it is
-    drawn on beyond their edges.
+    of the body, black ones continued from their surroundings: these two kinds are invented. An
+    albedo may exceed 1: it is the texture's linear value times ``scale``.
     """
 
     kind: Literal["texture"] = "texture"

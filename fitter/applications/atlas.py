@@ -42,18 +42,13 @@ class Atlas:
     weights: Float[np.ndarray, "t 3"]
 
 
-def triangles_of_texels(model: BodyModel, size: int) -> Integer[np.ndarray, "n n"]:
-    """The triangle each texel of a body model's atlas lies on; -1 where it lies on none."""
+def atlas_of(model: BodyModel, size: int) -> Atlas:
+    """The atlas of a body model, ``size`` texels wide and high."""
     corners = _corners(model, size)
     # A flat mesh one metre before a camera of one pixel a metre is its own picture.
     flat = np.column_stack([corners, np.ones(len(corners))])
     camera = Camera(focal_length_px=1.0, centre_x=0.0, centre_y=0.0, width=size, height=size)
-    return render(flat, model.uv_triangles, camera).face_ids
-
-
-def atlas_of(model: BodyModel, size: int) -> Atlas:
-    """The atlas of a body model, ``size`` texels wide and high."""
-    ids = triangles_of_texels(model, size)
+    ids = render(flat, model.uv_triangles, camera).face_ids
     inside = ids >= 0
     triangles = ids[inside]
     rows, columns = np.nonzero(inside)
@@ -62,7 +57,7 @@ def atlas_of(model: BodyModel, size: int) -> Atlas:
         size=size,
         inside=inside,
         triangles=triangles,
-        weights=_barycentric(texels, triangles, _corners(model, size)[model.uv_triangles]),
+        weights=_barycentric(texels, triangles, corners[model.uv_triangles]),
     )
 
 

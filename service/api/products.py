@@ -16,7 +16,7 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem, problem
 from api_schemas.products import AnyProductOptions, Product, ProductRequest, product_id
-from api_schemas.products.bodies import LEAST_OWN_TEXTURE, TEXTURE_SIZES, AnimationOptions
+from api_schemas.products.bodies import AnimationOptions
 from api_schemas.products.documents import (
     MAX_CHART_BYTES,
     NOT_A_CHART,
@@ -46,7 +46,7 @@ from service.api.requests import (
 )
 from service.api.storage import disk_full, erase_at_once, store, stored_content, storing
 from service.api.submissions import accepted_job
-from service.jobs.inputs import CHART, CLIP, RESULT, TEXTURE, product_inputs
+from service.jobs.inputs import CHART, CLIP, RESULT, product_inputs
 from service.jobs.records import ACTIVE, JobRecord, NewJob, Submission, SubmitOutcome
 from service.representation.jobs import FITS, POLL_AFTER_S
 from service.representation.products import (
@@ -55,9 +55,7 @@ from service.representation.products import (
     product_path,
     represent_product,
 )
-from service.submissions.image_header import ReadHeader
 from service.submissions.refusal import RefusedError, refused
-from service.submissions.submission import check_picture
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 
@@ -68,10 +66,6 @@ _PARTS: Final = {
         "as CMU, Mixamo, Biovision, SMPL or Unreal; `joints` names them otherwise. Its rest pose "
         "does not matter.",
         media_types="text/plain, application/octet-stream",
-    ),
-    TEXTURE: Part(
-        description="A painted atlas, square, in the layout of `atlas.png` of any texture of the "
-        "fit: JPEG, PNG or WebP, for colours `own`.",
     ),
     CHART: Part(
         description="A size chart as CSV: a header `size,chest_girth,waist_girth_navel` with the "
@@ -125,7 +119,7 @@ async def make_product(
     """
     received = await read_json_or_form(request, ProductRequest, _PARTS)
     options = received.asked.root
-    sent = await run_in_threadpool(_checked, options, received.files, context)
+    sent = await run_in_threadpool(_checked, options, received.files)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
     asked = product_id(options, None if sent is None else sent.content)
@@ -188,9 +182,7 @@ class _Sent:
     media_type: str
 
 
-def _checked(
-    options: AnyProductOptions, parts: Mapping[str, Sequence[bytes]], context: ApiContext
-) -> _Sent | None:
+def _checked(options: AnyProductOptions, parts: Mapping[str, Sequence[bytes]]) -> _Sent | None:
     """Check the part that came along, beside the event loop."""
     taken = options.part
     for name in parts:
@@ -216,13 +208,11 @@ def _checked(
             )
         return None
     (content,) = parts[taken]
-    kind = _CHECKS[taken](
-        content, options, max_pixels=context.settings.max_pixels, read=context.read_header
-    )
+    kind = _CHECKS[taken](content, options)
     return _Sent(name=taken, content=content, media_type=kind)
 
 
-def _check_motion(clip: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
+def _check_motion(clip: bytes, options: AnyProductOptions) -> str:
     """Read a BVH file: what cannot be made of it is refused now, in the same words."""
     if len(clip) > MAX_BYTES:
         raise RefusedError(
@@ -245,32 +235,7 @@ def _check_motion(clip: bytes, options: AnyProductOptions, **_of_pictures: objec
     return "text/plain"
 
 
-def _check_texture(
-    texture: bytes, options: AnyProductOptions, *, max_pixels: int, read: ReadHeader
-) -> str:
-    """Check a painted atlas by its header alone; returns its media type."""
-    del options
-    header = check_picture(TEXTURE, texture, max_pixels=max_pixels, read=read)
-    largest = TEXTURE_SIZES[-1]
-    reason = None
-    if header.width != header.height:
-        reason = "is not square, as the atlas is"
-    elif not LEAST_OWN_TEXTURE <= header.width <= largest:
-        reason = f"is not between {LEAST_OWN_TEXTURE} and {largest} texels a side"
-    if reason is not None:
-        raise refused(
-            FieldProblem(
-                field=TEXTURE,
-                code="texture-size",
-                reason=f"The texture, {header.width} x {header.height}, {reason}.",
-                remedy=f"Paint on atlas.png of any texture of this fit, or scale to {largest} x "
-                f"{largest}.",
-            )
-        )
-    return header.media_type
-
-
-def _check_chart(chart: bytes, options: AnyProductOptions, **_of_pictures: object) -> str:
+def _check_chart(chart: bytes, options: AnyProductOptions) -> str:
     """Read the chart; returns its media type."""
     if len(chart) > MAX_CHART_BYTES:
         raise RefusedError(
@@ -294,13 +259,11 @@ def _check_chart(chart: bytes, options: AnyProductOptions, **_of_pictures: objec
     return "text/csv"
 
 
-_CHECKS: Final[Mapping[str, Callable[..., str]]] = {
+_CHECKS: Final[Mapping[str, Callable[[bytes, AnyProductOptions], str]]] = {
     CLIP: _check_motion,
-    TEXTURE: _check_texture,
     CHART: _check_chart,
 }
-"""Each is given a file, what is asked for, the most pixels a picture may have, and what reads its
-header; it returns the file's media type."""
+"""Each is given a file and what is asked for, and returns the file's media type."""
 
 
 def _submit(

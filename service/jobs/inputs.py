@@ -22,9 +22,6 @@ BODY_POSED: Final = "body_posed.glb"
 CLIP: Final = "bvh"
 """A motion sent with the request for a product."""
 
-TEXTURE: Final = "texture"
-"""A painted atlas sent with the request."""
-
 CHART: Final = "chart"
 """A size chart sent with the request, as CSV."""
 

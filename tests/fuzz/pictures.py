@@ -34,16 +34,6 @@ def picture(chance: random.Random) -> bytes:
     return damaged(content, chance)
 
 
-def painted_atlas(chance: random.Random) -> bytes:
-    """A square picture of one mode or another, one in three sound."""
-    side = chance.choice((64, 64, 96, 128, 63, 2_049))
-    stream = io.BytesIO()
-    mode = chance.choice(("RGB", "RGBA", "L", "LA", "P", "1"))
-    Image.new(mode, (side, side)).save(stream, chance.choice(("PNG", "WEBP")))
-    content = stream.getvalue()
-    return content if chance.random() < 0.33 else damaged(content, chance)
-
-
 def black_mask() -> bytes:
     """A mask of nobody: the fit decodes everything and ends there."""
     stream = io.BytesIO()

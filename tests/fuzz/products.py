@@ -9,7 +9,6 @@ from api_schemas.products.base import ProductKind
 from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.motions import motion
 from tests.fuzz.mutations import NASTY, damaged, damaged_document
-from tests.fuzz.pictures import painted_atlas, picture
 
 FIT_ID = "11111111-1111-4111-8111-111111111111"
 PRODUCT_ID = "2" * 32
@@ -57,7 +56,7 @@ def product_form(chance: random.Random) -> RawRequest:
         document = {"kind": "size"}
         chart = chart_table(chance).encode()
         parts["chart"] = damaged(chart, chance) if chance.random() < 0.3 else chart
-    elif roll < 0.6:
+    else:
         document = {"kind": "animation", "start_s": chance.choice((0, 0, 0.05, 3600, -1))}
         if chance.random() < 0.3:
             document["up"] = chance.choice(("y", "z", "-x", "w"))
@@ -65,13 +64,10 @@ def product_form(chance: random.Random) -> RawRequest:
             part, name = (chance.choice(("pelvis", "chest", "left_shin", "tail")) for _ in range(2))
             document["joints"] = {part: chance.choice(("Hips", "LeftKnee", "Chest", name))}
         parts["bvh"] = motion(chance)
-    else:
-        document = {"kind": "texture", "colours": "own"}
-        parts["texture"] = chance.choice((painted_atlas, painted_atlas, picture))(chance)
     if chance.random() < 0.15:
         document = _document(chance)
     if chance.random() < 0.1:
-        parts[chance.choice(("bvh", "texture", "chart", "image", "mask", ""))] = b"HIERARCHY\n"
+        parts[chance.choice(("bvh", "chart", "image", "mask", ""))] = b"HIERARCHY\n"
     parts["request"] = json.dumps(document).encode()
     if chance.random() < 0.1:
         parts["request"] = damaged(parts["request"], chance)
@@ -127,7 +123,7 @@ def _document(chance: random.Random) -> dict[str, Any]:
             # Of the walk that ships with the package no more than a moment.
             return {"kind": kind, "start_s": chance.choice((0, 0.5)), "duration_s": 0.05}
         case "texture":
-            colours = chance.choice(("picture", "albedo", "own"))
+            colours = chance.choice(("picture", "albedo", "plain"))
             return {"kind": kind, "colours": colours, "size": chance.choice((512, 512, 700))}
         case "composition":
             return {"kind": kind, "age_years": chance.choice((None, 0, 17.5, 40, 120, 121))}

@@ -10,13 +10,12 @@ from api_schemas.products.bodies import (
     CaricatureResult,
     PoseOptions,
     PoseResult,
-    TextureColours,
     TextureOptions,
     TextureResult,
 )
 from api_schemas.products.documents import CompositionOptions, CompositionResult
 from service.compute.tasks import Parts, UnusableInputError
-from service.jobs.inputs import CLIP, TEXTURE
+from service.jobs.inputs import CLIP
 
 LARGEST_FACTOR = 6.0
 """Of a caricature."""
@@ -48,11 +47,9 @@ def made_product(
             )
             return result, {"body_caricature.glb": b"glTF"}
         case TextureOptions(colours=colours, size=size):
-            own = colours is TextureColours.OWN
-            assert own is (TEXTURE in parts)
             result = TextureResult(
                 colours=colours,
-                size=len(parts[TEXTURE]) if own else size,
+                size=size,
                 seen_share=0.4,
                 mirrored_share=0.1,
                 scale=1.0,

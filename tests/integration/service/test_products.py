@@ -11,7 +11,6 @@ import pytest
 
 from api_schemas.products import Product
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
-from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     Machine,
     Service,
@@ -141,7 +140,6 @@ def test_nothing_is_made_of_a_fit_that_has_not_succeeded(service: Service):
             "rotations.head.1",
         ),
         ({"kind": "animation", "up": "y"}, 422, "missing", "bvh"),
-        ({"kind": "texture", "colours": "own"}, 422, "missing", "texture"),
         ({"kind": "size"}, 422, "missing", "chart"),
         ({"kind": "composition", "age_years": 121}, 422, "out-of-range", "age_years"),
     ],
@@ -169,29 +167,13 @@ def test_a_file_comes_along_and_another_one_is_another_product(service: Service)
     walk = made(service, fit, asked)
     assert len({moved["id"], other.rpartition("/")[2], walk["id"]}) == 3
     assert walk["result"]["source"] == "a walk"
-    painted = scripted_image(width=256, height=256)
-    own = form(service, fit, {"kind": "texture", "colours": "own"}, texture=("t.png", painted))
-    assert service.ended(own.headers["Location"])["result"]["size"] == len(painted)
 
 
 @pytest.mark.parametrize(
     ("request_", "part", "content", "expected"),
     [
         ({"kind": "pose"}, "bvh", BVH, (422, "unknown-field", "bvh")),
-        ({"kind": "texture"}, "texture", b"skin", (422, "unknown-field", "texture")),
         ({"kind": "animation"}, "bvh", "HIERARCHY", (422, "bvh-unreadable", "bvh")),
-        (
-            {"kind": "texture", "colours": "own"},
-            "texture",
-            b"skin",
-            (415, "not-an-image", "texture"),
-        ),
-        (
-            {"kind": "texture", "colours": "own"},
-            "texture",
-            scripted_image(width=256, height=255),
-            (422, "texture-size", "texture"),
-        ),
         ({"kind": "size"}, "chart", "size,waist\nM,80-84\n", (422, "not-a-chart", "chart")),
         (
             {"kind": "size", "ease": {"hip_girth": 1}},

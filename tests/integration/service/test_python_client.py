@@ -11,6 +11,7 @@ from api_schemas.products.bodies import CaricatureOptions
 from fitter.vocabulary.choices import Gender
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import Service
+from tests.integration.service.test_products import BVH
 
 KNOWN = {"gender": "female", "height_m": 1.68}
 SEVERAL = {"gender": "female", "views": [{"view": "front"}, {"view": "side"}]}
@@ -42,12 +43,8 @@ def test_a_product_is_made_and_its_files_are_read(maquette: Maquette):
     fit = maquette.fit(KNOWN, scripted_image())
     posed = maquette.product(fit, {"kind": "pose"})
     assert maquette.file(posed, "body_reposed.glb").startswith(b"glTF")
-    own = maquette.product(
-        fit,
-        {"kind": "texture", "colours": "own"},
-        texture=scripted_image(width=256, height=256),
-    )
-    assert own.kind == "texture"
+    moved = maquette.product(fit, {"kind": "animation"}, bvh=BVH.encode())
+    assert moved.kind == "animation"
     with pytest.raises(MaquetteError, match="Send a factor") as refused:
         maquette.product(fit, CaricatureOptions(kind="caricature", factor=7.0))
     assert refused.value.problem is not None

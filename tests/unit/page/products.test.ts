@@ -9,16 +9,6 @@ test("a request says only what its kind knows", () => {
   assert.deepEqual(KINDS.animation.request({ ...wishes, motion: new File([], "dance.bvh") }), { kind: "animation" });
 });
 
-test("a texture of one's own is sent along, and needed", () => {
-  const own = { ...FIRST_WISHES, colours: "own" as const };
-  assert.match(KINDS.texture.lacks!(own)!, /Choose a texture/);
-  assert.equal(KINDS.texture.part!({ ...FIRST_WISHES, texture: new File([], "skin.png") }), null);
-  const chosen = { ...own, texture: new File([], "skin.png") };
-  assert.equal(KINDS.texture.lacks!(chosen), null);
-  assert.equal(KINDS.texture.part!(chosen)!.name, "texture");
-  assert.deepEqual(KINDS.texture.request(chosen), { kind: "texture", colours: "own" });
-});
-
 test("a size needs a chart", () => {
   assert.match(KINDS.size.lacks!(FIRST_WISHES)!, /chart/);
   const wishes = { ...FIRST_WISHES, chart: "size,hip_girth\nS,90-94\n" };

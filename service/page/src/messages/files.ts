@@ -31,7 +31,6 @@ export const files = {
     "animation.png": "Moments of it, from the front and the side",
     "texture.png": "The texture alone",
     "texture.jpg": "The skin’s colours, for meshes in other formats",
-    "atlas.png": "Where the texture has which part, to paint on",
     "coverage.png": "What of it was seen, mirrored, continued",
   },
 } as const;

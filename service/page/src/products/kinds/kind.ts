@@ -4,7 +4,7 @@ import type { ProductRequest, ProductResult } from "../../api/types";
 
 /** A file sent beside a request, by the name of its form part. */
 export interface Part {
-  readonly name: "bvh" | "texture";
+  readonly name: "bvh";
   readonly file: File;
 }
 
