@@ -6,7 +6,7 @@ blobs: what a caller sent (picture, mask, points, whom to notify and with what s
 made from it is here and nowhere else.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Protocol
 from urllib.parse import urlsplit
 
@@ -19,6 +19,13 @@ class BlobMissingError(Exception):
 
 class BlobsUnavailableError(Exception):
     """The store cannot be reached or does not answer; what was to be stored is not stored."""
+
+
+class BlobDamagedError(BlobsUnavailableError):
+    """What is stored is not what was; a copy may be put back."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(f"blob {name} has another content than its name says")
 
 
 class StorageFullError(BlobsUnavailableError):
@@ -53,7 +60,17 @@ class BlobStore(Protocol):
         ...
 
     def get(self, scope: str, name: str) -> bytes:
-        """Return a blob, or raise :class:`BlobMissingError` if it was erased or never stored."""
+        """Return a blob whose content is what its name says.
+
+        Raises
+        ------
+        BlobMissingError
+            If it was erased or never stored.
+        """
+        ...
+
+    def scopes(self) -> Iterator[str]:
+        """Return the scopes that hold anything, in no order."""
         ...
 
     def erase(self, scope: str) -> None:

@@ -15,7 +15,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from service.jobs.blobs import BlobMissingError, BlobsUnavailableError, StorageFullError
+from service.jobs.blobs import (
+    BlobDamagedError,
+    BlobMissingError,
+    BlobsUnavailableError,
+    StorageFullError,
+)
 from service.process.data_folder import make_private_folder
 
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
@@ -75,12 +80,23 @@ class LocalBlobStore:
         ------
         BlobMissingError
             If it was erased or never stored.
+        BlobDamagedError
+            If what is there is not what was stored.
         """
         try:
             with _told():
-                return (self._folder(scope) / name).read_bytes()
+                content = (self._folder(scope) / name).read_bytes()
         except FileNotFoundError as error:
             raise BlobMissingError(name) from error
+        # Disks flip bits, and a hundredth of a second finds out.
+        if hashlib.sha256(content).hexdigest() != name:
+            raise BlobDamagedError(name)
+        return content
+
+    def scopes(self) -> Iterator[str]:
+        """Return the scopes that hold anything, in no order."""
+        with _told():
+            yield from (folder.name for folder in self.root.glob("*/*"))
 
     def erase(self, scope: str) -> None:
         """Remove everything in a scope; erasing nothing is fine."""

@@ -17,6 +17,7 @@ from botocore.config import Config
 from botocore.exceptions import BotoCoreError, ClientError
 
 from service.jobs.blobs import (
+    BlobDamagedError,
     BlobMissingError,
     BlobsUnavailableError,
     StorageFullError,
@@ -117,16 +118,23 @@ class S3BlobStore:
         ------
         BlobMissingError
             If it was erased or never stored.
-        BlobsUnavailableError
+        BlobDamagedError
             If what came is not what was stored.
         """
         with _told(name):
             answer = self._client.get_object(Bucket=self._bucket, Key=self._key(scope, name))
             content: bytes = answer["Body"].read()
         if hashlib.sha256(content).hexdigest() != name:
-            message = f"object {name} has another content than its name says"
-            raise BlobsUnavailableError(message)
+            raise BlobDamagedError(name)
         return content
+
+    def scopes(self) -> Iterator[str]:
+        """Return the scopes that hold anything, in no order."""
+        pages = self._client.get_paginator("list_objects_v2")
+        with _told(self._bucket):
+            for page in pages.paginate(Bucket=self._bucket, Prefix=self._prefix, Delimiter="/"):
+                for entry in page.get("CommonPrefixes", ()):
+                    yield entry["Prefix"].removeprefix(self._prefix).rstrip("/")
 
     def erase(self, scope: str) -> None:
         """Remove everything in a scope, in every version a bucket with versioning kept."""

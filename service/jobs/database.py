@@ -88,7 +88,7 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
 @retry_while_database_is_away
 def check_database(url: str) -> None:
-    """Check that the database answers and has no tables of another version.
+    """Check that the database answers, is not damaged and has no tables of another version.
 
     Waits for a database that does not answer.
 
@@ -98,6 +98,11 @@ def check_database(url: str) -> None:
         If it answers but cannot be used as it is.
     """
     with opened(url) as engine:
+        if engine.dialect.name == "sqlite":
+            with engine.connect() as connection:
+                found = connection.execute(sa.text("PRAGMA quick_check(1)")).scalar_one()
+            if found != "ok":
+                raise _unusable(url, f"it is damaged: {found}")
         _check_schema(engine)
 
 

@@ -31,6 +31,7 @@ from service.jobs.tables import FACTS
 from service.process.retrying import retry_with_pauses
 
 STORAGE_FACT: Final = "storage"
+OFFERED_FACT: Final = "storage_offered"
 SCOPE: Final = "storage-of"
 """Where the number is kept; scopes of jobs are other names, and are all that is ever erased."""
 
@@ -65,8 +66,9 @@ def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False)
     """Take the storage for the database's from now on, unless it has one: then check it.
 
     A new database has none, so the first process that starts decides; its folder or bucket is made
-    unless it is there. With ``adopt`` the storage takes the place of the one that the database had.
-    Waits and raises as :func:`check_storage` does; the tables must be there.
+    unless it is there, and must not be that of another database. With ``adopt`` the storage takes
+    the place of the one that the database had. Waits and raises as :func:`check_storage` does; the
+    tables must be there.
     """
     with opened(url) as engine:
         with engine.connect() as connection:
@@ -75,33 +77,55 @@ def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False)
             with _refusals(named):
                 blobs.prepare()
         if number is None:
-            # Before it is known, so that no database names a storage that knows nothing of it.
-            offered = uuid.uuid4().hex
-            with _refusals(named):
-                blobs.put(SCOPE, offered.encode())
-            with locked(engine) as connection:
-                number = read_fact(connection, STORAGE_FACT)
-                if number is None:
-                    number = offered
-                    write_fact(connection, STORAGE_FACT, number)
+            number = _decide(engine, blobs, named, adopt=adopt)
     if adopt:
         with _refusals(named):
             blobs.put(SCOPE, number.encode())
     _check(blobs, number, named)
 
 
+def _decide(engine: sa.Engine, blobs: BlobStore, named: str, *, adopt: bool) -> str:
+    """Return the database's number, which the storage holds if nobody was quicker."""
+    with locked(engine) as connection:
+        offered = read_fact(connection, OFFERED_FACT) or uuid.uuid4().hex
+        # Before the storage knows it: whoever dies in between knows it again.
+        write_fact(connection, OFFERED_FACT, offered)
+    with locked(engine) as connection, _refusals(named):
+        number = read_fact(connection, STORAGE_FACT)
+        if number is None:
+            number = offered
+            if not adopt and not _holds(blobs, offered) and SCOPE in blobs.scopes():
+                message = (
+                    f"{named}: this is the storage of another database, and the one given is new "
+                    "or was emptied; give the service that database back or another storage, or, "
+                    "if it is lost, run maquette serve --adopt-storage once, which has erased "
+                    "after a day what the new one does not know"
+                )
+                raise StorageUnusableError(message)
+            blobs.put(SCOPE, number.encode())
+            write_fact(connection, STORAGE_FACT, number)
+    return number
+
+
+def _holds(blobs: BlobStore, number: str) -> bool:
+    try:
+        blobs.get(SCOPE, hashlib.sha256(number.encode()).hexdigest())
+    except BlobMissingError:
+        return False
+    return True
+
+
 def _check(blobs: BlobStore, number: str, named: str) -> None:
     with _refusals(named):
-        try:
-            blobs.get(SCOPE, hashlib.sha256(number.encode()).hexdigest())
-        except BlobMissingError as error:
-            message = (
-                f"{named}: this is not the storage of the database, which has its pictures and "
-                "results elsewhere; give all API processes and workers of a database the same "
-                "storage, or, if the former one is lost or was moved here in part, run "
-                "maquette serve --adopt-storage once"
-            )
-            raise StorageUnusableError(message) from error
+        is_its_own = _holds(blobs, number)
+    if not is_its_own:
+        message = (
+            f"{named}: this is not the storage of the database, which has its pictures and "
+            "results elsewhere; give all API processes and workers of a database the same "
+            "storage, or, if the former one is lost or was moved here in part, run "
+            "maquette serve --adopt-storage once"
+        )
+        raise StorageUnusableError(message)
 
 
 @contextlib.contextmanager

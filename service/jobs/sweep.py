@@ -7,6 +7,7 @@ lists its scope before it stores the first byte and removes it when the job is a
 """
 
 import logging
+import re
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -18,7 +19,7 @@ from sqlalchemy.exc import OperationalError
 
 from api_schemas.jobs import JobState
 from service.jobs.blobs import BlobStore, BlobsUnavailableError
-from service.jobs.database import read_then_write
+from service.jobs.database import insert_or_update, read_then_write
 from service.jobs.notices import Notices, notice_of
 from service.jobs.tables import ERASURES, IMAGES, JOBS, TOMBSTONES
 
@@ -32,6 +33,15 @@ LATE_WRITES_S: Final = 600.0
 scope is erased once more after this time."""
 
 TOMBSTONES_KEPT_S: Final = 90 * 86_400.0
+
+UNKNOWN_KEPT_S: Final = 86_400.0
+"""A folder that no record names is kept so long: somebody may have given the service a database of
+yesterday by mistake."""
+
+UNKNOWN_SOUGHT_S: Final = 86_400.0
+OUR_SCOPES: Final = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}|\.probe-[0-9a-f]{32}")
+"""Names of fits' and pictures' scopes, and of those that readiness writes: others are not ours."""
+
 BATCH: Final = 200
 EXPIRED_AT_ONCE: Final = 50
 """Jobs, with all their events, per transaction."""
@@ -145,6 +155,18 @@ def expire_images(connection: sa.Connection, now: float) -> int:
     return len(scopes)
 
 
+def known_scopes(connection: sa.Connection, scopes: Sequence[str]) -> set[str]:
+    """Return which of these scopes a fit, a picture or an erasure names."""
+    # One statement, so that no scope passes from one table to another in between.
+    known = sa.union_all(
+        *(
+            sa.select(column).where(column.in_(scopes))
+            for column in (JOBS.c.id, IMAGES.c.scope, ERASURES.c.scope)
+        )
+    )
+    return set(connection.execute(known).scalars())
+
+
 def forget_pages(database: sa.Engine) -> None:
     """Return free pages of an embedded database to the disk, and empty its write-ahead log.
 
@@ -182,6 +204,7 @@ class Sweeper:
         self._interval_s = interval_s
         self._notices = notices
         self._clock = ClockGuard()
+        self._unknown_at = time.monotonic()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
 
@@ -200,6 +223,7 @@ class Sweeper:
         now = self._clock.settled_time()
         if now is not None:
             self._expire(now)
+        self._find_unknown()
         erased = 0
         while not self._stopped.is_set() and (scopes := self._due()):
             erased += sum(self._erase(scope) for scope in scopes)
@@ -216,6 +240,28 @@ class Sweeper:
             expire_images(connection, now)
             old = TOMBSTONES.c.expired_at < now - TOMBSTONES_KEPT_S
             connection.execute(sa.delete(TOMBSTONES).where(old))
+
+    def _find_unknown(self) -> None:
+        """List for erasure, once a day, scopes that no record names: after a day they are erased.
+
+        They are what a database left that was lost, or a worker that was out of reach for long.
+        """
+        now = time.monotonic()
+        if now < self._unknown_at:
+            return
+        scopes = [each for each in self._blobs.scopes() if OUR_SCOPES.fullmatch(each)]
+        for start in range(0, len(scopes), BATCH):
+            batch = scopes[start : start + BATCH]
+            with self._database.begin() as connection:
+                unknown = set(batch) - known_scopes(connection, batch)
+                for scope in unknown:
+                    LOG.warning("Nothing is known of the folder %s; it goes in a day.", scope)
+                    connection.execute(
+                        insert_or_update(connection, ERASURES)
+                        .values(scope=scope, due_at=time.time() + UNKNOWN_KEPT_S)
+                        .on_conflict_do_nothing()
+                    )
+        self._unknown_at = now + UNKNOWN_SOUGHT_S
 
     def _due(self) -> list[str]:
         query = sa.select(ERASURES.c.scope).where(ERASURES.c.due_at <= time.time()).limit(BATCH)
@@ -243,6 +289,8 @@ class Sweeper:
                 erased = self.sweep()
             except OperationalError as error:
                 LOG.warning("The database is not available (%s); nothing is erased.", error.orig)
+            except BlobsUnavailableError as error:
+                LOG.warning("The storage is not available (%s); nothing is erased.", error)
             except Exception:
                 LOG.exception("Erasing what has expired failed.")
             else:

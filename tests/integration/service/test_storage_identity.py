@@ -72,7 +72,28 @@ def test_a_storage_may_be_let_take_the_place_of_one_that_is_lost(url: str, tmp_p
     take(url, tmp_path / "new")
 
 
-def test_a_storage_may_serve_several_databases_one_after_the_other(url: str, tmp_path: Path):
+def emptied(url: str) -> None:
+    """Have the database forget its storage, as one that was made anew."""
+    database = open_database(url, connections=1)
+    with database.begin() as connection:
+        connection.execute(sa.delete(FACTS))
+    database.dispose()
+
+
+def test_a_database_that_does_not_know_its_folder_is_refused_unless_it_is_said_to_be_lost(
+    url: str, tmp_path: Path
+):
+    take(url, tmp_path)
+    emptied(url)
+    with pytest.raises(StorageUnusableError, match="storage of another database"):
+        take(url, tmp_path)
+    take(url, tmp_path, adopt=True)
+    take(url, tmp_path)
+
+
+def test_who_died_between_marking_the_storage_and_noting_it_takes_it_the_next_time(
+    url: str, tmp_path: Path
+):
     take(url, tmp_path)
     database = open_database(url, connections=1)
     with database.begin() as connection:

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from service.jobs.blobs import BlobMissingError, StorageFullError
+from service.jobs.blobs import BlobDamagedError, BlobMissingError, StorageFullError
 from service.jobs.blobs_local import LocalBlobStore
 
 KILLED_WHILE_WRITING = """
@@ -30,6 +30,15 @@ def test_a_blob_is_named_by_its_content_and_read_back(tmp_path):
     digest = blobs.put("job-1", b"picture")
     assert digest == hashlib.sha256(b"picture").hexdigest()
     assert blobs.get("job-1", digest) == b"picture"
+
+
+def test_a_bit_that_flipped_on_the_disk_is_found_when_the_blob_is_read(tmp_path):
+    blobs = LocalBlobStore(tmp_path)
+    digest = blobs.put("job-1", b"picture")
+    file = tmp_path / "jo" / "job-1" / digest
+    file.write_bytes(b"pictuse")
+    with pytest.raises(BlobDamagedError, match=digest):
+        blobs.get("job-1", digest)
 
 
 def test_storing_the_same_content_twice_leaves_one_file(tmp_path):

@@ -1,4 +1,4 @@
-"""A database of another version is refused with one sentence, and not changed."""
+"""A database of another version, or a damaged one, is refused with one sentence."""
 
 from pathlib import Path
 
@@ -24,3 +24,16 @@ def test_tables_of_another_version_are_refused(tmp_path: Path):
         with pytest.raises(DatabaseUnusableError, match="tables 7, here 9") as refused:
             begin(url)
         assert "\n" not in str(refused.value)
+
+
+def test_a_damaged_file_is_refused_before_anything_starts(tmp_path: Path):
+    url = f"sqlite:///{tmp_path / 'maquette.sqlite'}"
+    prepare_database(url)
+    check_database(url)
+    file = tmp_path / "maquette.sqlite"
+    content = bytearray(file.read_bytes())
+    page = 4096
+    content[page * 5 : page * 6] = bytes([0xA5]) * page
+    file.write_bytes(content)
+    with pytest.raises(DatabaseUnusableError, match=r"MAQUETTE_DATA_DIR=.*(damaged|malformed)"):
+        check_database(url)
