@@ -66,8 +66,8 @@ openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
 	$(VENV)/bin/python -m tests.contract.request_table
 
-# The documentation site, into service/docs_site, from where the service shows it. Its gallery and
-# tutorials run; a warning or a failing script ends it. It is put there when it is complete.
+# The documentation site, into service/docs_site, from where the service shows it. Its notebooks run;
+# a warning or one that fails ends it. It is put there when it is complete.
 docs: $(STAMP) $(VENV)/.documented
 	rm -rf $(VENV)/docs_site
 	$(SINGLE_THREADED) $(VENV)/bin/sphinx-build -q -W -b html -d $(VENV)/.doctrees service/docs $(VENV)/docs_site

@@ -1,16 +1,17 @@
 """The documentation site. `make docs` builds it from this folder into service/docs_site."""
 
-import logging
+import hashlib
 import os
-import sys
+import re
+from functools import partial
 from pathlib import Path
 
-from service.version import VERSION
+from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
+from sphinx.application import Sphinx
+from sphinx.writers.html5 import HTML5Translator
 
-FOLDER = Path(__file__).parent
-# Of this folder too where notebooks and galleries run, each in a process of its own.
-sys.path.insert(0, str(FOLDER))
-os.environ["PYTHONPATH"] = os.pathsep.join([str(FOLDER), os.environ.get("PYTHONPATH", "")])
+from service.version import VERSION
 
 project = "Maquette"
 author = "The Maquette authors"
@@ -18,21 +19,10 @@ project_copyright = author
 version = release = VERSION
 
 extensions = [
-    "_extensions.mathml",
-    "_extensions.nothing_inline",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
-    "sphinx_gallery.gen_gallery",
-]
-exclude_patterns = [
-    "_extensions",
-    "gallery_scripts",
-    "sg_execution_times.rst",
-    "gallery/sg_execution_times.rst",
-    # The gallery's scripts in the forms in which they can be downloaded.
-    *(f"gallery/*.{ending}" for ending in ("ipynb", "json", "md5", "py", "zip")),
 ]
 nitpicky = True
 # What annotations of functions name has no page of its own.
@@ -55,15 +45,49 @@ nb_merge_streams = True
 autodoc_typehints = "signature"
 napoleon_google_docstring = False
 
-sphinx_gallery_conf = {
-    "examples_dirs": ["gallery_scripts"],
-    "gallery_dirs": ["gallery"],
-    "filename_pattern": "plot_",
-    "abort_on_example_error": True,
-    "download_all_examples": False,
-    "show_memory": False,
-    "show_signature": False,
-    "min_reported_time": 1_000_000,
-}
+TAG = re.compile(r"\\tag\{(.*?)\}")
+INLINE = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 
-logging.getLogger("httpx").setLevel(logging.WARNING)
+
+def setup(app: Sphinx) -> None:
+    """Formulas as MathML, which browsers draw themselves, and no inline scripts.
+
+    So the service's policy need allow neither scripts and fonts from elsewhere nor inline ones.
+    """
+    app.add_html_math_renderer(
+        "mathml", inline_renderers=(inline, None), block_renderers=(block, None)
+    )
+    app.connect("build-finished", move_scripts)
+
+
+def inline(translator: HTML5Translator, node: nodes.math) -> None:
+    translator.body.append(tex2mathml(node.astext(), as_block=False))
+    raise nodes.SkipNode
+
+
+def block(translator: HTML5Translator, node: nodes.math_block) -> None:
+    """With its number beside it where it has one."""
+    text = node.astext()
+    number = TAG.search(text)
+    translator.body.append(translator.starttag(node, "div", CLASS="math"))
+    translator.body.append(tex2mathml(TAG.sub("", text), as_block=True))
+    if number:
+        translator.body.append(f'<span class="eqno">({number[1]})</span>')
+    translator.body.append("</div>\n")
+    raise nodes.SkipNode
+
+
+def move_scripts(app: Sphinx, exception: Exception | None) -> None:
+    """Give the theme's scripts files of their own."""
+    if exception is not None or app.builder.format != "html":
+        return
+    root = Path(app.outdir)
+    for page in root.rglob("*.html"):
+        page.write_text(INLINE.sub(partial(_reference, page, root), page.read_text()))
+
+
+def _reference(page: Path, root: Path, found: re.Match[str]) -> str:
+    script = found[1]
+    name = f"_static/inline-{hashlib.sha256(script.encode()).hexdigest()[:12]}.js"
+    (root / name).write_text(script)
+    return f'<script src="{os.path.relpath(root / name, page.parent)}"></script>'
