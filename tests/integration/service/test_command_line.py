@@ -12,11 +12,12 @@ import pytest
 from api_schemas.results import FitResult
 from service.cli import main
 from service.commands.demo import run_demo
-from service.commands.fit import PIPELINE, fit_locally
+from service.commands.fit import PIPELINE, fit_locally, print_result
 from service.demo_data.sample import Sample, load_sample
 from service.version import VERSION
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import FRONT_AND_SIDE, POINTS, QUICK, REQUEST, VIEW
+from tests.unit.service.fit_results import fit_result
 
 FAKE = "tests.integration.service.fake_pipeline"
 FAKE_SERVE = (sys.executable, "-m", "tests.integration.service.fake_serve")
@@ -104,6 +105,14 @@ def test_a_missing_file_is_named(tmp_path, capsys):
         main(["fit", str(tmp_path / "request.json"), str(tmp_path / "picture.png")])
     assert ended.value.code == 2
     assert "picture.png" in capsys.readouterr().out.replace("\n", "")
+
+
+def test_where_measurements_are_withheld_it_is_said_how_to_have_them(capsys):
+    print_result(fit_result(measurements=[], verdict="implausible"))
+    told = capsys.readouterr().out
+    assert "force" in told
+    assert "implausible" in told
+    assert "Measurements, male" not in told
 
 
 def sample(script: dict[str, object] | None = None) -> Sample:
