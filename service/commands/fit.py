@@ -69,8 +69,8 @@ def fit_locally(
     )
     if made is None:
         return UNUSABLE
-    result = FitResult.model_validate_json(made[RESULT])
-    files = {**made, TABLE: measurements_csv(result.measurements)}
+    result, files = made
+    files = {**files, TABLE: measurements_csv(result.measurements)}
     for name, content in files.items():
         path = output / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -122,8 +122,8 @@ def fitted(
     pictures: Sequence[SentPicture[bytes]],
     *,
     pipeline: str = PIPELINE,
-) -> Parts:
-    """Check and fit as the service does, and show how far it is; return the files by name.
+) -> tuple[FitResult, Parts]:
+    """Check and fit as the service does, show how far it is; return result and files by name.
 
     Raises
     ------
@@ -137,9 +137,10 @@ def fitted(
     stages = Stages()
     setup = child_setup(settings, name="fit", tasks=pipeline)
     parts = {OPTIONS: checked.request.model_dump_json().encode(), **named_pictures(pictures)}
-    return load_tasks(pipeline)[FIT](
+    files = load_tasks(pipeline)[FIT](
         setup, parts, lambda report: stages.show(_stage(report), report.progress)
     )
+    return FitResult.model_validate_json(files[RESULT]), files
 
 
 def _stage(report: Report) -> str:

@@ -16,7 +16,6 @@ from api_schemas.fit import FitRequest
 from api_schemas.person import unknown_name_remedy
 from api_schemas.picture import ViewRequest
 from api_schemas.problems import problem
-from api_schemas.results import FitResult
 from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
@@ -24,7 +23,7 @@ from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Clothing, Gender, ViewKind
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
 from service.commands.fit import INPUT_FAULTS, PIPELINE, add_output, fault_lines, fitted, told
-from service.jobs.inputs import RESULT, SentPicture
+from service.jobs.inputs import SentPicture
 from service.startup import UNUSABLE, run_command
 from service.submissions.refusal import RefusedError
 
@@ -168,10 +167,9 @@ def _fit(number: int, row: Row, folder: Path, *, pipeline: str) -> _Fit:
     )
     try:
         pictures = [SentPicture((folder / path).read_bytes(), None) for path in views.values()]
-        files = fitted(asked, pictures, pipeline=pipeline)
+        result, _ = fitted(asked, pictures, pipeline=pipeline)
     except INPUT_FAULTS as error:
         return _Fit(number=number, row=row, fault=" ".join(" ".join(fault_lines(error)).split()))
-    result = FitResult.model_validate_json(files[RESULT])
     found = {each.name: (each.value, each.standard_error) for each in result.measurements}
     fault = None if found else f"withheld: {result.outcome_explanation}"
     return _Fit(number=number, row=row, found=found, fault=fault)
