@@ -2,9 +2,6 @@
 
 import contextlib
 import logging
-import os
-import select
-import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -26,13 +23,10 @@ DEATHS: Final = 5
 """How often in a row the server may die before it is taken to be unable to fork at all."""
 
 FIRST_PAUSE_S: Final = 0.1
-DOUBLINGS: Final = 8
-"""Pauses between two tries to start the server: up to 26 s, as one that dies takes seconds each
-time to load."""
+"""Pause before the server is started again; twice as long each time."""
 
-CRASHES: Final = 2
-"""Children that crash in a row, after which the server is replaced; a job has three attempts by
-default."""
+LOOK_S: Final = 5.0
+"""Pause between two looks whether the server is able."""
 
 
 class NoProcessError(Exception):
@@ -103,16 +97,15 @@ class ForkServer:
         self._context.set_forkserver_preload([SECRETLESS, *preload])
         self._lock = threading.Lock()
         self._deaths = 0
-        self._crashes = 0
         self._has_forked = threading.Event()
 
     def begin_preloading(self) -> None:
-        """Start the server, which then loads the numerics in the background, and keep it running.
+        """Start the server, which then loads the numerics in the background.
 
         Returns at once.
         """
         forkserver.ensure_running()
-        threading.Thread(target=self._keep_running, name="fork server", daemon=True).start()
+        threading.Thread(target=self._keep_able, name="fork server", daemon=True).start()
 
     def is_able(self, within_s: float = 0.0) -> bool:
         """Say whether the server has forked the process that it was asked for last, or soon has."""
@@ -142,27 +135,6 @@ class ForkServer:
         """Start a child that waits for tasks; raises as :meth:`start` does."""
         return Child(*self.start(child.work, setup))
 
-    def note_end(self, *, crashed: bool) -> None:
-        """Note how a child ended its task: when children crash in a row the server is replaced.
-
-        What they share may be damaged, as a library that was mapped from a file truncated since.
-        """
-        with self._lock:
-            self._crashes = self._crashes + 1 if crashed else 0
-            is_damaged = self._crashes >= CRASHES
-            if is_damaged:
-                self._crashes = 0
-        if is_damaged:
-            LOG.warning("Processes crash in a row: the fork server is replaced.")
-            self.replace_server()
-
-    def replace_server(self) -> None:
-        """End the server: what it has read may have been damaged since. Another one takes over."""
-        with contextlib.suppress(NoProcessError, ProcessLookupError):
-            server = self._server_number()
-            self._has_forked.clear()
-            os.kill(server, signal.SIGKILL)
-
     def _started(
         self, target: Callable[..., None], arguments: tuple[object, ...]
     ) -> ForkServerProcess:
@@ -177,7 +149,7 @@ class ForkServer:
                 if deaths >= DEATHS:
                     raise NoProcessError(str(error) or type(error).__name__) from error
                 LOG.warning("The fork server died (%s).", error or type(error).__name__)
-                time.sleep(_pause_s(deaths))
+                time.sleep(FIRST_PAUSE_S * 2.0 ** (deaths - 1))
             else:
                 with self._lock:
                     self._deaths = 0
@@ -191,57 +163,21 @@ class ForkServer:
                 self._has_forked.clear()
             return self._deaths
 
-    def _keep_running(self) -> None:
-        """Start the server again whenever it has ended, though nobody asks for a process."""
+    def _keep_able(self) -> None:
+        """Have a process forked until that succeeds, though nobody asks for one."""
+        began = time.monotonic()
         while True:
-            began = time.monotonic()
-            try:
-                server = self._server_number()
-            except NoProcessError as error:
-                LOG.error("The fork server dies time after time (%s): no job can run.", error)
-                time.sleep(_pause_s(self._deaths))
-                continue
-            LOG.info("The numerics are loaded (%.1f s).", time.monotonic() - began)
-            if not _wait_for_end(server):
-                return
-            LOG.warning("The fork server has ended; starting another.")
-
-    def _server_number(self) -> int:
-        """The server's process number, told by a process that is forked to tell it."""
-        connection, process = self.start(_tell_parent)
-        try:
-            return int(connection.recv())
-        except (EOFError, OSError) as error:
-            raise NoProcessError(str(error) or type(error).__name__) from error
-        finally:
-            end(connection, process)
+            if not self.is_able():
+                try:
+                    end(*self.start(_nothing))
+                    LOG.info("The numerics are loaded (%.1f s).", time.monotonic() - began)
+                except NoProcessError as error:
+                    LOG.error("The fork server dies time after time (%s): no job can run.", error)
+            time.sleep(LOOK_S)
 
 
-def _wait_for_end(server: int) -> bool:
-    """Wait until the process has ended; False where that cannot be watched."""
-    try:
-        descriptor = os.pidfd_open(server)
-    except ProcessLookupError:
-        return True
-    except (AttributeError, OSError):
-        return False
-    poll = select.poll()
-    poll.register(descriptor, select.POLLIN)
-    poll.poll()
-    os.close(descriptor)
-    return True
-
-
-def _pause_s(deaths: int) -> float:
-    doublings = min(deaths - 1, DOUBLINGS)
-    return FIRST_PAUSE_S * 2.0**doublings
-
-
-def _tell_parent(connection: Connection) -> None:
+def _nothing(_: Connection) -> None:
     """Work of a process that is forked only to see that it can be."""
-    # The worker may have ended meanwhile.
-    with contextlib.suppress(OSError):
-        connection.send(os.getppid())
 
 
 def end(connection: Connection, process: ForkServerProcess) -> None:

@@ -162,7 +162,6 @@ class _Place:
                 answer = _final(child)
         except (EOFError, OSError, ValidationError):
             return _told(self._end(child, timed_out=time.monotonic() >= deadline))
-        self._server.note_end(crashed=False)
         return _told(FAILED) if isinstance(answer.message, FaultMessage) else answer
 
     def _ready(self, within_s: float) -> Child | None:
@@ -183,7 +182,6 @@ class _Place:
             LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
             return TIMED_OUT
         LOG.error("An estimator died over a question, exit code %s.", code)
-        self._server.note_end(crashed=True)
         return FAILED
 
 

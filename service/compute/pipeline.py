@@ -1,10 +1,12 @@
 """The tasks of jobs, a fit and its products: the fitter between two translations."""
 
-from collections.abc import Mapping
-from typing import Final
+import importlib
+from collections.abc import Callable, Mapping
+from typing import Any, Final
 
 from api_schemas.fit import FitRequest
 from api_schemas.products import ProductRequest
+from api_schemas.products.base import ProductResult
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import result_files, tapes_json
 from fitter.export.display import png
@@ -14,8 +16,8 @@ from fitter.fits.pipeline import fit
 from fitter.result import FitResult
 from service.compute import translate
 from service.compute.fit_results import fit_result
-from service.compute.products import maker_of
-from service.compute.products.finished_fit import finished_fit
+from service.compute.products.finished_fit import FinishedFit, Made, finished_fit
+from service.compute.products.finished_fit import Report as ReportShare
 from service.compute.tasks import (
     OPTIONS,
     PRODUCT,
@@ -80,6 +82,16 @@ def product_task(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     return {**made.files, RESULT: made.result.model_dump_json().encode()}
+
+
+def maker_of(kind: str) -> Callable[[FinishedFit, Any, ReportShare], Made[ProductResult]]:
+    """Function that makes products of a kind; each takes options of its own, say ``PoseOptions``.
+
+    It raises :class:`fitter.errors.InvalidInputError` if the request is at fault. A module is
+    imported only when its product is asked for: no fit needs what it loads, and every process
+    forked for a fit would carry it along.
+    """
+    return importlib.import_module(f"service.compute.products.{kind}").make
 
 
 TASKS: Final[Mapping[str, Task]] = {FIT: fit_task, PRODUCT: product_task}

@@ -119,9 +119,7 @@ class JobRunner:
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
         try:
-            result = self._run(attempt)
-            self._server.note_end(crashed=result.ending is Ending.CRASHED)
-            return result
+            return self._run(attempt)
         except BlobMissingError:
             LOG.warning("The input of the job is gone.")
             return _failed(INPUT_GONE)

@@ -4,7 +4,6 @@ import getpass
 import os
 import shutil
 import stat
-from collections.abc import Collection
 from pathlib import Path
 from typing import Final
 
@@ -42,16 +41,6 @@ def tighten(path: Path) -> None:
         path.chmod(mode & ~OTHERS)
 
 
-def tighten_own_folder(folder: Path, *, own: Collection[str]) -> None:
-    """Tighten a folder that holds nothing but ours: any other may be shared for a reason."""
-    try:
-        is_own = all(each.name in own for each in folder.iterdir())
-    except OSError:
-        return
-    if is_own:
-        tighten(folder)
-
-
 DATABASE_ENDINGS: Final = ("", "-wal", "-shm", "-journal")
 
 
@@ -83,7 +72,9 @@ def prepare_data_folder(settings: Settings) -> None:
         if path.exists() and not _may_write(path):
             raise _unusable(settings, f"{_user()} may not write {path}")
     own = {settings.blob_dir.name, *(file.name for file in files)}
-    tighten_own_folder(folder, own=own)
+    # A folder that holds anything but ours may be shared for a reason.
+    if all(each.name in own for each in folder.iterdir()):
+        tighten(folder)
     tighten(settings.blob_dir)
 
 

@@ -11,14 +11,13 @@ from fitter.applications.animation import (
 )
 from fitter.applications.motion_file import read_motion
 from fitter.applications.rig import Rig, rig_of
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made
+from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.compute.products.pictured_body import texture_files, texture_for
 from service.jobs.inputs import CLIP
 
 
 def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[AnimationResult]:
-    """Set the body in motion; see :class:`service.compute.products.Maker`."""
+    """Set the body in motion."""
     person, evaluator = fit.person, fit.operators.evaluator
     rig = rig_of(evaluator.model, person.body.shape)
     chosen = _chosen(fit.files.get(CLIP), options, rig)

@@ -13,12 +13,11 @@ from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
 from fitter.export.views import BodyView, preview
 from fitter.person.upright import upright_turn
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made
+from service.compute.products.finished_fit import FinishedFit, Made, Report
 
 
 def make(fit: FinishedFit, options: CaricatureOptions, report: Report) -> Made[CaricatureResult]:
-    """Exaggerate; see :class:`service.compute.products.Maker`."""
+    """Exaggerate."""
     person = fit.person
     model, evaluator = fit.operators.model, fit.operators.evaluator
     of_looks = options.exaggerated is Exaggerated.LOOKS

@@ -6,13 +6,12 @@ from api_schemas.products.documents import (
     CompositionResult,
 )
 from fitter.applications.body_fat import body_fat, body_mass_index
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made, measured
+from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
 from service.representation.csv_tables import models_csv
 
 
 def make(fit: FinishedFit, options: CompositionOptions, report: Report) -> Made[CompositionResult]:
-    """Estimate; see :class:`service.compute.products.Maker`."""
+    """Estimate."""
     person = measured(fit)
     report(0.5)
     estimates = tuple(

@@ -1,6 +1,6 @@
 """A finished fit, as what is made of it sees it, and what is made of one."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -15,6 +15,9 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.joint_measurements import JointMeasurements, joint_measurements
 from fitter.person.fitted_person import FittedPerson, require_model
 from service.jobs.inputs import PERSON, RESULT
+
+Report = Callable[[float], None]
+"""Takes how much of the work is done, from 0 to 1."""
 
 Result_co = TypeVar("Result_co", bound=ProductResult, covariant=True)
 

@@ -16,8 +16,7 @@ from fitter.export.views import BodyView, preview
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from service.compute.fit_results import body_result
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made
+from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.compute.products.pictured_body import texture_files, texture_for
 
 
@@ -49,7 +48,7 @@ def reposed_glb(
 
 
 def make(fit: FinishedFit, options: PoseOptions, report: Report) -> Made[PoseResult]:
-    """Pose the body; see :class:`service.compute.products.Maker`."""
+    """Pose the body."""
     person, model = fit.person, fit.operators.model
     rig = rig_of(model, person.body.shape)
     pose = spelled_pose(rig, options.rotations, beginning=pose_named(rig, options.pose))

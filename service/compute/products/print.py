@@ -13,8 +13,7 @@ from api_schemas.products.documents import PrintOptions, PrintResult
 from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
 from fitter.export.views import MARGIN_SHARE
 from fitter.vocabulary.measurements import CHIEF
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made
+from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.jobs.inputs import BODY, OVERLAY, RESULT, of_view
 
 PICTURE_HEIGHT_PX: Final = 900
@@ -56,7 +55,7 @@ _EXPLAINED: Final = (
 
 
 def make(fit: FinishedFit, options: PrintOptions, report: Report) -> Made[PrintResult]:
-    """Write the page; see :class:`service.compute.products.Maker`."""
+    """Write the page."""
     del options
     result = FitResult.model_validate_json(fit.files[RESULT])
     report(0.2)

@@ -13,14 +13,13 @@ from api_schemas.products.documents import (
 )
 from fitter.applications.sizes import Sizes, size_answer, sizes_of
 from fitter.measurement.joint_measurements import JointMeasurements
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made, measured
+from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
 from service.jobs.inputs import CHART
 from service.representation.csv_tables import models_csv
 
 
 def make(fit: FinishedFit, options: SizeOptions, report: Report) -> Made[SizeResult]:
-    """Find the size; see :class:`service.compute.products.Maker`."""
+    """Find the size."""
     person = measured(fit)
     report(0.5)
     sent = options.chart_csv

@@ -4,13 +4,12 @@ from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import TextureOptions, TextureResult
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.export.display import png
-from service.compute.products import Report
-from service.compute.products.finished_fit import FinishedFit, Made
+from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.compute.products.pictured_body import picture_on
 
 
 def make(fit: FinishedFit, options: TextureOptions, report: Report) -> Made[TextureResult]:
-    """Put the picture on it; see :class:`service.compute.products.Maker`."""
+    """Put the picture on it."""
     is_albedo = options.colours is BodyColours.ALBEDO
     laid = picture_on(fit, without_light=is_albedo, size=options.size)
     report(0.8)

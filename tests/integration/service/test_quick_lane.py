@@ -3,6 +3,7 @@
 import os
 import signal
 import threading
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from api_schemas.questions import BodyEstimate, BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.compute import lanes
-from service.compute.fork_server import ForkServer
+from service.compute.fork_server import ForkServer, end
 from service.compute.lanes import QuickLane
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.compute.tasks import ChildSetup
@@ -42,9 +43,15 @@ def server(gate):
         environment.setenv(GATE, str(gate))
         server = ForkServer(SETUP.tasks)
         # One that runs already knows of no gate.
-        server.replace_server()
+        connection, process = server.start(tell_server)
+        os.kill(connection.recv(), signal.SIGKILL)
+        end(connection, process)
         server.begin_preloading()
         yield server
+
+
+def tell_server(connection: Connection) -> None:
+    connection.send(os.getppid())
 
 
 @pytest.fixture
@@ -126,18 +133,6 @@ def test_a_question_that_kills_its_child_fails_alone_and_the_child_is_replaced(l
     after = pids(lane)
     assert len(after) == 2
     assert not any(is_running(pid) for pid in before - after)
-
-
-def test_children_that_die_in_a_row_have_the_fork_server_replaced(lane, server):
-    servers = {parent(pid) for pid in pids(lane)}
-    for _ in range(3):
-        assert trouble(asked(lane, segfault=1.0)) == "estimator-failed"
-    assert not servers & {parent(pid) for pid in pids(lane)}
-
-
-def parent(pid: int) -> int:
-    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return int(fields[1])
 
 
 def test_a_child_killed_between_questions_is_replaced_unnoticed(lane):

@@ -8,7 +8,7 @@ import pytest
 
 from api_schemas.products import AnyProductOptions, AnyProductResult, ProductRequest, product_id
 from api_schemas.products.base import ProductKind
-from service.compute.products import maker_of
+from service.compute.pipeline import maker_of
 from service.compute.products.finished_fit import Made
 
 
