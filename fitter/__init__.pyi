@@ -12,7 +12,7 @@ from .library import estimate_body as estimate_body
 from .library import files_of as files_of
 from .library import fit as fit
 from .library import measure as measure
-from .measurement.quantity import Measurement as Measurement
+from .measurement.definitions import Measurement as Measurement
 from .parameters import BodyParameters as BodyParameters
 from .parameters import Light as Light
 from .parameters import Reflectance as Reflectance
@@ -41,7 +41,6 @@ from .vocabulary.choices import Facing as Facing
 from .vocabulary.choices import Gender as Gender
 from .vocabulary.choices import LightKind as LightKind
 from .vocabulary.choices import OptimizerKind as OptimizerKind
-from .vocabulary.choices import OutlineKind as OutlineKind
 from .vocabulary.choices import PaperEnergy as PaperEnergy
 from .vocabulary.choices import ViewKind as ViewKind
 from .vocabulary.outcomes import Outcome as Outcome
@@ -77,7 +76,6 @@ __all__ = [
     "NumericalError",
     "OptimizerKind",
     "Outcome",
-    "OutlineKind",
     "Paper",
     "PaperEnergy",
     "Person",

@@ -7,7 +7,7 @@
     ├── ModelFileError          a trained body model is missing, damaged or of another format
     ├── MeshFolderError         a user's registered meshes cannot be trained on
     ├── DetectorUnavailableError  the detector of people is not installed
-    ├── DefinitionError         a measurement is defined by something the body model lacks
+    ├── DefinitionError         a measurement's place on the skin is not on the body model
     └── NumericalError          a non-finite number where none may be: a fault of ours, never hidden
 
 Not converging is no error: it is an :class:`~fitter.result.Outcome` with its best body.
@@ -127,7 +127,7 @@ class DetectorUnavailableError(FitterError):
 
 
 class DefinitionError(FitterError):
-    """A measurement definition that cannot be read or does not fit the body model."""
+    """A measurement's place on the skin is not on the body model."""
 
 
 class NumericalError(FitterError):

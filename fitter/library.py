@@ -14,7 +14,7 @@ from fitter.fits import pipeline
 from fitter.fits.equipment import Equipment
 from fitter.fits.progress import Observer, ignore_progress
 from fitter.measurement.anthropometry import measure as measure_shape
-from fitter.measurement.quantity import Measurement
+from fitter.measurement.definitions import Measurement
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.population import body_estimate

@@ -10,7 +10,6 @@ from fitter.vocabulary.choices import (
     Gender,
     LightKind,
     OptimizerKind,
-    OutlineKind,
     PaperEnergy,
     SegmentationKind,
     ViewKind,
@@ -179,7 +178,6 @@ class Choices:
     """
 
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
-    outline: OutlineKind = OutlineKind.LINES
     paper: Paper | None = None
     force: bool = False
     max_pixels: int = 50_000_000

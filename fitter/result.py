@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 from fitter.arrays import Image, Mask, Shape, ShapeCovariance, Triangles, Vertices
 from fitter.capture.finding import Finding
-from fitter.measurement.quantity import Measurement
-from fitter.observation.covering import WornRegion
+from fitter.measurement.definitions import Measurement
+from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape

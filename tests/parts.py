@@ -36,11 +36,11 @@ LONGEST = (
     # Of `make test` and `make test-shapes`.
     "unit/fits/test_fit.py",
     "unit/optimizer/test_recovery.py",
-    "unit/training/test_knee_rings.py",
+    "unit/training/test_rig.py",
     "unit/training/test_bone_centres.py",
     "unit/service/products",
     "unit/optimizer/test_free_space.py",
-    "unit/training/test_volume_learning.py",
+    "unit/training/test_volume.py",
 )
 """Files and folders that take longest: two processes then end at nearly the same time."""
 

@@ -19,8 +19,7 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, shape_with_height
 from fitter.errors import InvalidInputError
 from fitter.numerics.mesh_faults import pierced_triangles
-from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.meshes import triangle_areas
+from fitter.numerics.meshes import mesh_topology, triangle_areas
 from fitter.numerics.rotations import cross_products
 from fitter.parameters import BodyParameters
 

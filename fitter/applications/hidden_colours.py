@@ -20,7 +20,7 @@ from jaxtyping import Float, Integer
 
 from fitter.applications.picture_surface import Colours, SurfacePoints, smooth_step
 from fitter.applications.rings import Region, RingCoordinates
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 
 BIN_M = 0.006
 """Width of a ring: a hem is as sharp behind as this."""

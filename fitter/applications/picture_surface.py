@@ -13,9 +13,9 @@ from jaxtyping import Bool, Float, Integer, UInt8
 from scipy import sparse
 
 from fitter.arrays import GreyImage, Image, Mask, Points2D, Triangles, Vector3, Vertices
-from fitter.evidence.sampling import sample
 from fitter.numerics.rotations import unit_vectors
-from fitter.observation.colour import display_from_linear, linear_from_display
+from fitter.observation.maps import sample
+from fitter.observation.pixels import display_from_linear, linear_from_display
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, Rendering, render
 

@@ -11,7 +11,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from fitter.body.model import BodyModel
-from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.meshes import mesh_topology
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 
 

@@ -36,8 +36,12 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
 from fitter.export.gltf_mesh import LIGHTEST
 from fitter.numerics.rotations import unit_vectors
-from fitter.observation.colour import display_from_linear, luminance_of
-from fitter.observation.resampling import linear_working_picture, working_size
+from fitter.observation.pixels import (
+    display_from_linear,
+    linear_working_picture,
+    luminance_of,
+    working_size,
+)
 from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.render.reflectance import shading_terms

@@ -82,7 +82,7 @@ HEADER_KEYS = (
 )
 
 STATURE_LANDMARKS = ("crown", "sole_left", "sole_right")
-"""What :mod:`fitter.body.shape_space` measures height by. A fit needs more:
+"""What :mod:`fitter.body.model` measures height by. A fit needs more:
 :mod:`fitter.fits.usable_model`."""
 
 SUM_TOLERANCE = 1e-4

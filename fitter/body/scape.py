@@ -29,7 +29,7 @@ from fitter.body._scape_kernels import (
     place_reverse,
 )
 from fitter.body.model import BodyModel, SparseRows, descendants, global_rotations
-from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import gradient_operator, part_laplacians
 from fitter.numerics.rotations import compose, rotation_matrices
 from fitter.numerics.sparse_factor import SparseFactor, sparse_factor
 from fitter.parameters import BodyParameters
@@ -278,8 +278,8 @@ def _factor(laplacians: list[sparse.csr_array]) -> SparseFactor:
     The matrix leaves translation free. A weight on one vertex fixes it without changing the
     solution, because the right-hand sides sum to zero: the held vertex simply lands at the origin.
     """
-    matrix = sparse.lil_array(sum(laplacians[1:], start=laplacians[0]))
+    matrix = sparse.csc_matrix(sum(laplacians[1:], start=laplacians[0]))
     matrix[0, 0] += matrix.diagonal().mean()
-    solver = qdldl.Solver(sparse.csc_matrix(matrix))
+    solver = qdldl.Solver(matrix)
     lower, diagonal, permutation = solver.factors()
     return sparse_factor(sparse.csc_matrix(lower), diagonal, permutation)

@@ -11,7 +11,7 @@ from jaxtyping import Float, UInt8
 from fitter.arrays import Mask
 from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody
-from fitter.observation.covering import WornRegion
+from fitter.observation.observation import WornRegion
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
 

@@ -5,7 +5,7 @@ from typing import Final
 
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
-from fitter.observation.covering import WornRegion
+from fitter.observation.observation import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
 from fitter.vocabulary.outcomes import Severity
 

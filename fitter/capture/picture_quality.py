@@ -14,7 +14,7 @@ from jaxtyping import Float, UInt8
 from fitter.arrays import GreyImage, Mask
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
-from fitter.observation.colour import LUMINANCE_WEIGHTS, linear_from_display
+from fitter.observation.pixels import LUMINANCE_WEIGHTS, linear_from_display
 from fitter.vocabulary.outcomes import Severity
 
 REBLUR_PX = 1.0

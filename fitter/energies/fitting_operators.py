@@ -13,9 +13,13 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.tangent import Attachments, TangentModel, attached_rows, tangent_model
 from fitter.energies.penetration import PenetrationProxy, penetration_proxy
 from fitter.energies.stance import stance_vectors
-from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
-from fitter.numerics.meshes import vertex_areas
-from fitter.numerics.normals import VertexRings, vertex_rings
+from fitter.numerics.meshes import (
+    MeshTopology,
+    VertexRings,
+    mesh_topology,
+    vertex_areas,
+    vertex_rings,
+)
 from fitter.numerics.surface_sample import SurfaceSample, surface_sample
 from fitter.parameters import BodyParameters
 

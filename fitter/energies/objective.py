@@ -1,28 +1,42 @@
-"""The energies E1 and E2 of one picture, as functions of the body (section 6).
+"""The energies E1 and E2 as functions of the body: of one picture, and of one person in several.
 
-E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh. Clicks and a prior on the pose are added to both: the
-paper's simplex starts near the solution and stays there, while a fit from arbitrary clicks needs to
-know what is plausible. What is known of the shape is the person's, whatever the pictures
-(:mod:`fitter.energies.joint_objective`).
+E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh (section 6). Clicks and a prior on the pose are added to
+both: the paper's simplex starts near the solution and stays there, while a fit from arbitrary
+clicks needs to know what is plausible.
+
+With one shape β, a pose and place θ_k in picture k, and E_k what that picture says,
+
+    E(β, θ_1 ... θ_K) = w Σ_k E_k(β, θ_k) + prior(β) + known(β).
+
+What is known of the shape counts once, however many pictures there are. Held attributes have no
+term: a search stays among the bodies that have them. The weight w is one for one picture, and less
+where several share part of their errors.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from fitter.arrays import Mask
+from fitter.arrays import Mask, Shape
 from fitter.body.model import regress
+from fitter.energies.correspondence_lines import CorrespondenceLines
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import sphere_positions
-from fitter.energies.picture import PictureEvidence, SeenBody
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence
+from fitter.energies.shape_terms import KnownAttributes, ShapeEquations, ShapePrior
 from fitter.energies.silhouette import silhouette_overlap
 from fitter.energies.stance import most_probable_tilt
-from fitter.energies.terms import Term, terms_of
+from fitter.energies.terms import (
+    PictureEvidence,
+    SeenBody,
+    ShapeTerm,
+    Term,
+    shape_terms_of,
+    terms_of,
+)
 from fitter.errors import NumericalError
-from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.parameters import BodyParameters
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
@@ -143,3 +157,85 @@ class Objective:
     def with_shading(self, shading: ShadingEvidence) -> "Objective":
         """The same objective with another shading term."""
         return replace(self, evidence=replace(self.evidence, shading=shading))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JointCandidate:
+    """One shape, posed in each picture, with its energies.
+
+    ``energies`` are those of the whole: each picture's terms, weighted and summed by name, and
+    those of the shape.
+    """
+
+    views: tuple[Candidate, ...]
+    energies: Mapping[str, float]
+
+    @property
+    def total(self) -> float:
+        """The sum of all terms, nats."""
+        return sum(self.energies.values())
+
+    @property
+    def shape(self) -> Shape:
+        """(n,) that all bodies have."""
+        return self.views[0].parameters.shape
+
+    @property
+    def bodies(self) -> tuple[BodyParameters, ...]:
+        """The body in each picture."""
+        return tuple(view.parameters for view in self.views)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JointObjective:
+    """See the module.
+
+    Attributes
+    ----------
+    views
+        What each picture says.
+    weight
+        w.
+    shape_prior, attributes
+        What is known of the shape; held attributes have no term.
+    """
+
+    views: tuple[Objective, ...]
+    weight: float
+    shape_prior: ShapePrior
+    attributes: KnownAttributes
+
+    @property
+    def shape_terms(self) -> tuple[ShapeTerm, ...]:
+        """Energies of what is known of the shape."""
+        return shape_terms_of(self.shape_prior, self.attributes)
+
+    def shape_equations(self, shape: Shape) -> ShapeEquations:
+        """Matrix and gradient of what is known of the shape."""
+        n = len(shape)
+        matrix, gradient = np.zeros((n, n)), np.zeros(n)
+        for term in self.shape_terms:
+            own, slope = term.equations(shape)
+            matrix, gradient = matrix + own, gradient + slope
+        return matrix, gradient
+
+    def evaluate(self, bodies: Sequence[Body]) -> JointCandidate:
+        """The true energy of bodies of one shape.
+
+        Raises
+        ------
+        NumericalError
+            If a term is not finite.
+        """
+        found = [view.evaluate(body) for view, body in zip(self.views, bodies, strict=True)]
+        shape = found[0].parameters.shape
+        energies: dict[str, float] = {}
+        for each in found:
+            for name, energy in each.energies.items():
+                energies[name] = energies.get(name, 0.0) + self.weight * energy
+        energies |= {term.name: term.energy(shape) for term in self.shape_terms}
+        return JointCandidate(views=tuple(found), energies=energies)
+
+    def with_views(self, views: Sequence[Objective]) -> "JointObjective":
+        """The same with other evidence."""
+        return replace(self, views=tuple(views))

@@ -104,10 +104,10 @@ _EASE_CORRELATION_METRES = 0.15
 _EASE_COMMON_M = 0.02
 
 
-_SCAN_LINES = 1.5
+_SHARED_LINES = 1.5
 
 
-def scan_scales(scales: EnergyScales) -> EnergyScales:
+def scales_of_several(scales: EnergyScales) -> EnergyScales:
     """Scales for a picture that is one of several of a person: its outline counts for more.
 
     Chosen on the tuning half of the suite's phone pairs and on the foreign pairs together
@@ -115,8 +115,8 @@ def scan_scales(scales: EnergyScales) -> EnergyScales:
     """
     return replace(
         scales,
-        correlation_length=scales.correlation_length / _SCAN_LINES,
-        line_correlation_length=scales.line_correlation_length / _SCAN_LINES,
+        correlation_length=scales.correlation_length / _SHARED_LINES,
+        line_correlation_length=scales.line_correlation_length / _SHARED_LINES,
     )
 
 

@@ -1,7 +1,8 @@
 """Shading energy E_Sh: predicted against observed intensity at the visible vertices (Eq. 2).
 
-This is the first term of Eq. 2. The smoothness of albedo and specularity depends on the body only
-through distances between neighbours, which are held while the body moves; it lives in
+The observed intensity r_i is the picture's linear luminance, where it can be trusted. This is the
+first term of Eq. 2. The smoothness of albedo and specularity depends on the body only through
+distances between neighbours, which are held while the body moves; it lives in
 :mod:`fitter.optimizer.reflectance_solve`. Vertices are weighted by area. The weighted mean over the
 visible vertices is taken, not the sum: a body must not gain by hiding.
 
@@ -18,18 +19,75 @@ what is left on the true body.
 
 from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.arrays import PerVertex, Vector3
+from fitter.arrays import GreyImage, Image, Mask, PerVertex, Points2D, Vector3
 from fitter.energies._picture_kernels import facing_camera
-from fitter.energies.rows import ShadingRows
+from fitter.energies.rows import ShadingRows, geman_mcclure, geman_mcclure_weights
 from fitter.energies.scales import EnergyScales
-from fitter.evidence.intensity import IntensityMap
-from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+from fitter.observation.maps import sample
 from fitter.parameters import Light, Reflectance
 from fitter.render.rasterizer import Rendering
 from fitter.render.reflectance import shade, shade_with_derivatives
+
+# Vertices of trunk and limbs project a few pixels apart; finer detail is texture.
+_SMOOTHING_PX = 1.5
+# Pixels this near the outline mix person and background.
+_RIM_PX = 3
+_CLIPPED_DISPLAY_VALUE = 0.985
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class IntensityMap:
+    """Linear luminance of the person.
+
+    Attributes
+    ----------
+    luminance
+        (h, w) linear, smoothed within the person.
+    trusted
+        (h, w) on the person, off its rim, not clipped.
+    """
+
+    luminance: GreyImage
+    trusted: Mask
+
+    def at(self, points: Points2D) -> Float[np.ndarray, " k"]:
+        """Luminance at continuous pixels, linearly interpolated."""
+        return sample(self.luminance, points)[0]
+
+    def with_gradient_at(self, points: Points2D) -> tuple[Float[np.ndarray, " k"], Points2D]:
+        """Luminance and its derivative per pixel."""
+        return sample(self.luminance, points)
+
+    def trusted_at(self, points: Points2D) -> Bool[np.ndarray, " k"]:
+        """Whether the pixel that holds each point can be trusted; points lie in the picture."""
+        height, width = self.trusted.shape
+        columns = np.clip(points[:, 0].astype(int), 0, width - 1)
+        rows = np.clip(points[:, 1].astype(int), 0, height - 1)
+        return self.trusted[rows, columns]
+
+    def without(self, region: Mask) -> "IntensityMap":
+        """The same with nothing to trust in a region (h, w)."""
+        return replace(self, trusted=self.trusted & ~region)
+
+
+def intensity_map(luminance: GreyImage, display: Image, mask: Mask) -> IntensityMap:
+    """Prepare the person's luminance.
+
+    Smoothing is normalised by the mask: the background never bleeds into the person.
+    """
+    inside = mask.astype(np.float32)
+    spread = cv2.GaussianBlur(inside, (0, 0), _SMOOTHING_PX)
+    smooth = cv2.GaussianBlur(luminance.astype(np.float32) * inside, (0, 0), _SMOOTHING_PX)
+    smooth = np.where(mask, smooth / np.maximum(spread, 1e-6), luminance).astype(np.float32)
+    region = np.ascontiguousarray(mask).view(np.uint8)
+    depth = cv2.distanceTransform(region, cv2.DIST_L2, cv2.DIST_MASK_5)
+    clipped = (display >= _CLIPPED_DISPLAY_VALUE).any(axis=2)
+    return IntensityMap(luminance=smooth, trusted=(depth > _RIM_PX) & ~clipped)
+
 
 # Below this cosine, toward the rim, a vertex's pixel mixes body and background.
 _LEAST_FACING = 0.25

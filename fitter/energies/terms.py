@@ -1,35 +1,107 @@
 """The terms of the energy, each once: of a picture, and of the shape whatever the pictures.
 
-The objectives sum their energies, and the normal equations walk through their rows. Formulas are in
-the terms' own modules.
+Terms of a picture are computed from its evidence and a body as its camera sees it. The objectives
+sum their energies, and the normal equations walk through their rows. Formulas are in the terms' own
+modules.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from fitter.arrays import Shape
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import PerVertex, Points3D, Shape, Vertices
 from fitter.body.pose_prior import prior_energy, prior_terms
-from fitter.energies.attributes import (
-    KnownAttributes,
-    ShapeEquations,
-    attribute_energy,
-    attribute_equations,
-)
-from fitter.energies.clicks import click_energy, click_rows
-from fitter.energies.correspondence_lines import line_energy, line_rows
-from fitter.energies.edges import edge_energy, edge_rows
+from fitter.energies.correspondence_lines import CorrespondenceLines, line_energy, line_rows
+from fitter.energies.edges import EdgeCostMap, edge_energy, edge_rows
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.energies.limb_slants import SlantEvidence, slant_energy, slant_rows
+from fitter.energies.landmarks import (
+    ClickEvidence,
+    SlantEvidence,
+    click_energy,
+    click_rows,
+    slant_energy,
+    slant_rows,
+)
 from fitter.energies.penetration import penetration_energy, penetration_rows
-from fitter.energies.picture import PictureEvidence, SeenBody
-from fitter.energies.priors import ShapePrior
 from fitter.energies.rows import Rows
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy, shading_rows
+from fitter.energies.shape_terms import (
+    KnownAttributes,
+    ShapeEquations,
+    ShapePrior,
+    attribute_energy,
+    attribute_equations,
+)
 from fitter.energies.silhouette import silhouette_energy, silhouette_rows
-from fitter.energies.stance import stance_rows
-from fitter.evidence.correspondence_lines import CorrespondenceLines
+from fitter.energies.stance import Tilt, stance_rows
+from fitter.evidence.loose_outline import LooseClothes
+from fitter.evidence.silhouette_evidence import SilhouetteEvidence
+from fitter.observation.observation import WornRegion
+from fitter.parameters import BodyParameters
+from fitter.render.camera import Camera
+from fitter.render.contours import ModelEdges
+from fitter.render.rasterizer import Rendering
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PictureEvidence:
+    """Evidence of one picture.
+
+    Attributes
+    ----------
+    silhouette
+        The region segmentation found.
+    slants
+        How limbs slant in depth, None where nothing is known about it.
+    lines
+        Where the person ends on lines across the contour of a nearby body; the silhouette energy
+        is then computed from these. None as long as there is no such body: then it is computed
+        from the region.
+    clothes
+        What is known about loose clothes, None where they are tight: the body's edges under them
+        are not those of the picture.
+    worn
+        How regions are covered; empty where the caller says that all clothes are tight.
+    shading
+        None for E1.
+    """
+
+    camera: Camera
+    clicks: ClickEvidence
+    slants: SlantEvidence | None = None
+    silhouette: SilhouetteEvidence
+    lines: CorrespondenceLines | None = None
+    edges: EdgeCostMap
+    clothes: LooseClothes | None = None
+    worn: tuple[WornRegion, ...] = ()
+    shading: ShadingEvidence | None
+
+    @property
+    def bare(self) -> PerVertex | None:
+        """(m,) probability that no loose clothes hide a vertex; None where clothes are tight."""
+        return None if self.clothes is None else self.clothes.bare
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SeenBody:
+    """One body as a camera sees it: everything that energies are computed from.
+
+    ``joints`` (p, 3) lie in the camera frame, metres; ``tilt`` is the camera's, as they tell it.
+    """
+
+    parameters: BodyParameters
+    vertices: Vertices
+    rendering: Rendering
+    edges: ModelEdges
+    landmarks: Points3D
+    joints: Float[np.ndarray, "p 3"]
+    tilt: Tilt
+    spheres: Float[np.ndarray, "s 3"]
+    radii: Float[np.ndarray, " s"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

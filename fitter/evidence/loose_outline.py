@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import GreyImage, Mask, PerVertex, Points2D
-from fitter.evidence.sampling import sample
 from fitter.evidence.silhouette_evidence import FullnessMap
+from fitter.observation.maps import sample
 from fitter.render.rasterizer import Rendering
 
 FARTHEST_M, INWARD_M = 0.18, 0.05

@@ -8,8 +8,7 @@ from jaxtyping import Bool, Float, Float32
 from scipy.special import ndtri
 
 from fitter.arrays import GreyImage, Mask, Points2D
-from fitter.evidence.sampling import sample
-from fitter.numerics.masks import exact_distances, window_about
+from fitter.observation.maps import exact_distances, sample, window_about
 
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0

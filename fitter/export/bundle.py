@@ -22,7 +22,7 @@ from fitter.export.pictures import (
 )
 from fitter.export.views import views_picture
 from fitter.measurement.anthropometry import MeasuringBody, tape_lines
-from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
+from fitter.numerics.meshes import MeshTopology, mesh_topology
 from fitter.observation.decoding import decode_picture
 from fitter.render.reflectance import shading_terms
 from fitter.result import FitResult, FittedView, PictureFit, before_shading

@@ -14,7 +14,7 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Vertices
 from fitter.export._antialiasing_kernels import levels_of
-from fitter.observation.colour import linear_from_display
+from fitter.observation.pixels import linear_from_display
 from fitter.render.camera import Camera
 
 LEVEL_STEPS = linear_from_display((np.arange(255) + 0.5) / 255.0)

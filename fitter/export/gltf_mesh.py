@@ -5,7 +5,7 @@ import numpy as np
 from fitter.arrays import Normals, Triangles, Vertices
 from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, Node, Target
-from fitter.numerics.normals import summed_cross_products
+from fitter.numerics.meshes import summed_cross_products
 from fitter.parameters import Reflectance
 
 BODY_NODE: Node = {"mesh": 0, "name": "body"}

@@ -8,8 +8,8 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask, Triangles, Vertices
 from fitter.export.display import levels_of_linear, to_levels
-from fitter.numerics.mesh_topology import MeshTopology
-from fitter.observation.resampling import WorkingSize, linear_working_picture
+from fitter.numerics.meshes import MeshTopology
+from fitter.observation.pixels import WorkingSize, linear_working_picture
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render

@@ -13,11 +13,11 @@ from fitter.errors import InvalidInputError
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
 from fitter.fits.outline_search import PictureSearch
 from fitter.observation.clicks import check_places, scaled_clicks
-from fitter.observation.colour import bytes_of_display
-from fitter.observation.covering import WornRegion
 from fitter.observation.decoding import DecodedPicture
 from fitter.observation.focal_length import focal_length
-from fitter.observation.resampling import (
+from fitter.observation.observation import WornRegion
+from fitter.observation.pixels import (
+    bytes_of_display,
     display_working_picture,
     linear_working_picture,
     working_size,

@@ -4,7 +4,7 @@ Read off clothes draped over ten bodies by another program, which hang as cloth 
 blouses, hoodies and a jacket, trousers and shorts. Metres, the median over people; leggings and
 skirts left out. Shirts are 4 mm wider, halfway to those of the evaluation's own clothed people,
 whose measurements came out too large. How wide the clothes of one person are, and of which garment,
-is for the fit to find (:mod:`fitter.energies.ease`).
+is for the fit to find (:mod:`fitter.energies.silhouette`).
 """
 
 from collections.abc import Mapping
@@ -18,15 +18,13 @@ from fitter.arrays import GreyImage, Image
 from fitter.body.model import BodyModel, regress
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.scales import EASE_MEAN_M
-from fitter.energies.shading import seen_vertices
-from fitter.evidence.intensity import IntensityMap
+from fitter.energies.shading import IntensityMap, seen_vertices
 from fitter.evidence.loose_outline import LooseClothes
-from fitter.evidence.sampling import sample
 from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.clothing_report import worn_regions
-from fitter.fits.prepared_model import PreparedModel
-from fitter.observation.covering import WornRegion
-from fitter.observation.observation import Observation
+from fitter.fits.equipment import PreparedModel
+from fitter.observation.maps import sample
+from fitter.observation.observation import Observation, WornRegion
 from fitter.parameters import BodyParameters
 from fitter.render.rasterizer import Rendering, render
 from fitter.request import SaidClothing

@@ -10,8 +10,8 @@ from fitter.arrays import GreyImage, Mask
 from fitter.capture.clothes import what_is_loose
 from fitter.capture.finding import Code, Finding
 from fitter.energies.objective import Objective
-from fitter.measurement.quantity import INTERVAL_SD
-from fitter.observation.covering import WornRegion
+from fitter.measurement.definitions import INTERVAL_SD
+from fitter.observation.observation import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
 from fitter.remarks import FitWarning
 from fitter.segmentation.coverage import Coverage

@@ -8,12 +8,12 @@ from jaxtyping import Float
 
 from fitter.arrays import Vertices
 from fitter.body.model import regress
-from fitter.fits.prepared_model import PreparedModel
+from fitter.fits.equipment import PreparedModel
 from fitter.fits.reporting import AMBIGUOUS_NATS
 from fitter.observation.clicks import check_clicks, side_warnings
-from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import focal_length
-from fitter.observation.resampling import working_size
+from fitter.observation.picture_files import ExifTags
+from fitter.observation.pixels import working_size
 from fitter.observation.subject import check_person
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import known_person

@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 from fitter.arrays import Image, Shape
 from fitter.detection.detector import Detector
 from fitter.energies.objective import Body, Objective
-from fitter.energies.picture import SeenBody
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
+from fitter.energies.terms import SeenBody
 from fitter.evidence.doubtful_outline import doubtful_outline
+from fitter.fits.equipment import PreparedModel
 from fitter.fits.picture_objective import (
     of_person,
     segmented,
     silhouette_and_edges,
     with_silhouette,
 )
-from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.progress import Stage, ViewClock
 from fitter.fits.reporting import limb_facings
 from fitter.observation.observation import Observation, observe
@@ -27,7 +27,6 @@ from fitter.request import Choices, View
 from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
-from fitter.vocabulary.choices import OutlineKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -103,7 +102,8 @@ def search_outline(
     prepared, known = subject.prepared, subject.known
     with clock.stage(Stage.OBSERVATION):
         observation = observe(view, max_pixels=choices.max_pixels, detector=detector)
-    lines_on = _lines_on(observation, choices)
+    # A mask that the caller sent is met as it is.
+    lines_on = observation.display if observation.mask is None else None
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
             prepared.searched.evaluator,
@@ -197,10 +197,3 @@ def is_loosely_dressed(objective: Objective) -> bool:
 
 def _about(objective: Objective, body: Body, lines_on: Image | None) -> Objective:
     return objective if lines_on is None else with_lines_about(objective, body, lines_on)
-
-
-def _lines_on(observation: Observation, choices: Choices) -> Image | None:
-    """A mask that the caller sent is met as it is."""
-    if choices.outline is not OutlineKind.LINES or observation.mask is not None:
-        return None
-    return observation.display

@@ -24,17 +24,14 @@ from typing import Final
 import numpy as np
 
 from fitter.body.shape_space import height_of_shape
-from fitter.energies.attributes import NOTHING_KNOWN
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Candidate, Objective
-from fitter.energies.priors import no_prior
+from fitter.energies.objective import Candidate, JointObjective, Objective
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M
-from fitter.evidence.intensity import IntensityMap, intensity_map
+from fitter.energies.shading import IntensityMap, intensity_map
+from fitter.energies.shape_terms import NOTHING_KNOWN, no_prior
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.equipment import Equipment
+from fitter.fits.equipment import Equipment, PreparedModel
 from fitter.fits.outline_search import PictureSearch, Subject
 from fitter.fits.picture_objective import of_person, silhouette_and_edges
-from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.progress import Stage, StageClock, ViewClock
 from fitter.fits.search import Found, LitView
 from fitter.observation.observation import Observation, observe
@@ -45,9 +42,8 @@ from fitter.optimizer.alternation import (
     shaded_fit,
     with_shading,
 )
-from fitter.optimizer.gauss_newton import FIRMLY_SETTLED_NATS
 from fitter.optimizer.light_solve import guessed_lights
-from fitter.optimizer.search import BodySearch, body_search
+from fitter.optimizer.search import FIRMLY_SETTLED_NATS, BodySearch, body_search
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose

@@ -7,18 +7,16 @@ import numpy as np
 
 from fitter.arrays import GreyImage, Shape
 from fitter.body.model import regress
-from fitter.energies.clicks import click_evidence
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.limb_slants import SlantEvidence
-from fitter.energies.objective import Objective
-from fitter.energies.picture import PictureEvidence
-from fitter.energies.priors import population_prior
+from fitter.energies.edges import edge_cost_map
+from fitter.energies.landmarks import SlantEvidence, click_evidence
+from fitter.energies.objective import JointObjective, Objective
 from fitter.energies.scales import scales_at
+from fitter.energies.shape_terms import population_prior
+from fitter.energies.terms import PictureEvidence
 from fitter.evidence.doubtful_outline import outline_confidence
-from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.clothing import dressed
-from fitter.fits.prepared_model import PreparedModel
+from fitter.fits.equipment import PreparedModel
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import counted_as

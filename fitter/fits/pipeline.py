@@ -6,7 +6,7 @@ from typing import Final
 
 from fitter.arrays import Shape
 from fitter.capture.finding import Code
-from fitter.energies.joint_objective import JointCandidate
+from fitter.energies.objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
 from fitter.fits.equipment import Equipment
@@ -32,7 +32,7 @@ from fitter.fits.reporting import (
 from fitter.fits.search import Found, search
 from fitter.fits.verdict import settle
 from fitter.measurement.anthropometry import error_if_known, measure
-from fitter.measurement.quantity import Measurement
+from fitter.measurement.definitions import Measurement
 from fitter.observation.subject import check_person
 from fitter.optimizer.free_space import held_shape
 from fitter.optimizer.uncertainty import certainty, shape_covariance

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from fitter.energies.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.energies.objective import Candidate, Objective
-from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
 from fitter.optimizer.search import with_lines_about

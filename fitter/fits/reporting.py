@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitter.energies.attributes import NOTHING_KNOWN
-from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.measurement.quantity import INTERVAL_SD
+from fitter.energies.objective import JointCandidate, JointObjective
+from fitter.energies.shape_terms import NOTHING_KNOWN
+from fitter.measurement.definitions import INTERVAL_SD
 from fitter.numerics.rotations import rotation_matrices
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.joint_equations import joint_equations

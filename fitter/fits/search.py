@@ -8,11 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fitter.arrays import Shape
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
-from fitter.energies.scales import scan_scales
-from fitter.energies.shading import ShadingEvidence
-from fitter.evidence.intensity import IntensityMap, intensity_map
+from fitter.energies.objective import Body, Candidate, EnergyObserver, JointObjective, Objective
+from fitter.energies.scales import scales_of_several
+from fitter.energies.shading import IntensityMap, ShadingEvidence, intensity_map
 from fitter.fits.clothing import where_bare
 from fitter.fits.outline_search import PictureSearch
 from fitter.fits.picture_objective import of_person
@@ -25,14 +23,16 @@ from fitter.optimizer.alternation import (
     shaded_fit,
     with_shading,
 )
-from fitter.optimizer.gauss_newton import (
+from fitter.optimizer.light_solve import guessed_lights
+from fitter.optimizer.search import (
     FIRMLY_SETTLED_NATS,
     NEARLY_SETTLED_NATS,
     SETTLED_NATS,
+    BodySearch,
     Minimum,
+    body_search,
+    limits_of,
 )
-from fitter.optimizer.light_solve import guessed_lights
-from fitter.optimizer.search import BodySearch, body_search, limits_of
 from fitter.population.known_person import KnownPerson
 from fitter.request import Choices
 from fitter.vocabulary.choices import Cues
@@ -154,7 +154,7 @@ def search(
     objective = of_person(
         known,
         [
-            replace(each.objective, scales=scan_scales(each.objective.scales))
+            replace(each.objective, scales=scales_of_several(each.objective.scales))
             if several
             else each.objective
             for each in pictures

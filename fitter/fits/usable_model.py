@@ -1,7 +1,7 @@
 """A gender's body model as its file holds it, with all the names a fit needs.
 
 It is enough to say which models there are, and that they can be used. Preparing one for fits
-(:mod:`fitter.fits.prepared_model`) takes ten times as long, and the compiled kernels.
+(:mod:`fitter.fits.equipment`) takes ten times as long, and the compiled kernels.
 """
 
 from pathlib import Path
@@ -10,8 +10,7 @@ from fitter.body.joint_limits import JOINT_RANGES
 from fitter.body.model import BodyModel
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import ModelFileError
-from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.definitions import JOINT_PREFIX, needed_points
+from fitter.measurement.definitions import JOINT_PREFIX, load_definitions, needed_points
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.points import POINT_NAMES
 

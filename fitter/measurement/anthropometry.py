@@ -17,23 +17,21 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import PerVertex, Shape, Triangles, Vertices
+from fitter.arrays import PerVertex, Pose, Shape, Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows, regress
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import DefinitionError, NumericalError
-from fitter.measurement.affine_body import AffineBody, affine_body
-from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import (
     JOINT_PREFIX,
     Mass,
+    Measurement,
     MeasurementDefinition,
-    check_against_model,
+    load_definitions,
     parts_of,
     points_of,
 )
 from fitter.measurement.held_tapes import HeldTapes, MovedBodies, held_values, hold_tapes
 from fitter.measurement.plane_cut import Region, restricted, whole_mesh
-from fitter.measurement.quantity import Measurement
 from fitter.measurement.skin_points import load_skin_points, skin_rows
 from fitter.measurement.taking import (
     TakenBody,
@@ -43,6 +41,40 @@ from fitter.measurement.taking import (
     taken_line,
     taken_values,
 )
+from fitter.parameters import BodyParameters
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AffineBody:
+    """A body in one fixed pose as a function of its shape, body frame, metres.
+
+    ``derivative`` has one (m, 3) displacement per coefficient.
+    """
+
+    mean: Vertices
+    derivative: Float[np.ndarray, "n m 3"]
+
+    def at(self, shape: Shape) -> Vertices:
+        """Vertices of the body with this shape."""
+        return self.mean + np.tensordot(shape, self.derivative, axes=1)
+
+
+def affine_body(evaluator: ScapeEvaluator, pose: Pose) -> AffineBody:
+    """The body in a fixed pose as an affine function of shape, root joint at the origin.
+
+    Exact: the SCAPE normal equations have a fixed matrix and, the pose being fixed, a right-hand
+    side that is affine in the shape.
+    """
+    n = len(evaluator.model.shape_basis)
+
+    def evaluate(shape: Shape) -> Vertices:
+        return evaluator.body_frame_vertices(
+            BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
+        )
+
+    mean = evaluate(np.zeros(n))
+    return AffineBody(mean=mean, derivative=np.stack([evaluate(e) - mean for e in np.eye(n)]))
+
 
 UNEXPLAINED_KEY = "unexplained_measurements"
 """Field of a model's header."""
@@ -118,10 +150,9 @@ def measuring_body(
     Raises
     ------
     DefinitionError
-        If a definition names something the model lacks.
+        If a place of the skin is not on the model.
     """
     definitions = load_definitions() if definitions is None else tuple(definitions)
-    check_against_model(definitions, model)
     canonical = affine_body(evaluator, model.canonical_pose)
     everything = whole_mesh(model.triangles)
     with_girths = {d.about.name: d for d in definitions} | dict(girths_of(definitions))

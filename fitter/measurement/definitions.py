@@ -2,20 +2,21 @@
 
 ``definitions.json`` beside this file holds them. Points are named by the body model's landmarks,
 by ``joint:PART`` for the centre about which a part turns, or by ``skin:NAME`` for a place of
-``skin_points.json``; several names mean their mean.
-:mod:`fitter.measurement.definition_file` reads the file and checks it;
+``skin_points.json``; several names mean their mean. The file is ours: tests check it.
 :mod:`fitter.measurement.anthropometry` measures by it.
 """
 
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from pathlib import Path
+from typing import Any, Final
 
-from fitter.body.model import BodyModel
-from fitter.errors import DefinitionError
 from fitter.measurement.skin_points import SKIN_PREFIX, load_skin_points
 
 JOINT_PREFIX = "joint:"
+DEFINITIONS_PATH = Path(__file__).with_name("definitions.json")
 
 PointNames = tuple[str, ...]
 
@@ -207,28 +208,87 @@ class Mass:
 MeasurementDefinition = Girth | Extent | Length | Height | Contour | BackContour | Mass
 
 
-def check_against_model(definitions: Sequence[MeasurementDefinition], model: BodyModel) -> None:
-    """Make sure that every landmark, joint and part the definitions name is in the model.
+def load_definitions() -> tuple[MeasurementDefinition, ...]:
+    """All measurements, in the order of the file."""
+    definitions: list[MeasurementDefinition] = []
+    for entry in json.loads(DEFINITIONS_PATH.read_text(encoding="utf-8"))["measurements"]:
+        definitions.append(_definition(entry, definitions))
+    return tuple(definitions)
 
-    Raises
-    ------
-    DefinitionError
-        Naming the measurement and what the model lacks.
-    """
-    known = set(model.landmarks.names) | {JOINT_PREFIX + part for part in model.part_names}
-    for definition in definitions:
-        for point in needed_points(definition):
-            if point not in known:
-                message = (
-                    f"{definition.about.name}: the {model.gender} body model has no point {point}."
-                )
-                raise DefinitionError(message)
-        for part in parts_of(definition):
-            if part not in model.part_names:
-                message = (
-                    f"{definition.about.name}: the {model.gender} body model has no part {part}."
-                )
-                raise DefinitionError(message)
+
+def _definition(
+    entry: Mapping[str, Any], before: Sequence[MeasurementDefinition]
+) -> MeasurementDefinition:
+    """One of the file; an extent is that of a girth among those before it."""
+    about = _about(entry)
+    match entry["kind"]:
+        case "girth":
+            low, high = entry["fractions"]
+            return Girth(
+                about=about,
+                start=tuple(entry["start"]),
+                end=tuple(entry["end"]),
+                origin=tuple(entry["origin"]) if "origin" in entry else None,
+                fractions=(float(low), float(high)),
+                selection=Selection(entry["selection"]),
+                orientation=Orientation(entry["orientation"]),
+                parts=tuple(entry["parts"]),
+                around_axis=entry["around_axis"],
+            )
+        case "extent":
+            girths = {each.about.name: each for each in before if isinstance(each, Girth)}
+            return Extent(
+                about=about, girth=girths[entry["of"]], direction=Direction(entry["direction"])
+            )
+        case "length":
+            return Length(about=about, path=_path(entry))
+        case "height":
+            above = tuple(entry.get("above", SOLES))
+            return Height(about=about, point=tuple(entry["point"]), above=above)
+        case "contour":
+            sides = tuple(side and tuple(map(float, side)) for side in entry["sides"])
+            parts = tuple(entry["parts"])
+            return Contour(about=about, path=_path(entry), sides=sides, parts=parts)
+        case "back_contour":
+            return BackContour(
+                about=about,
+                top=tuple(entry["top"]),
+                bottom=tuple(entry["bottom"]),
+                parts=tuple(entry["parts"]),
+            )
+        case "mass":
+            return Mass(about=about, density_kg_per_m3=entry["density_kg_per_m3"])
+        case kind:
+            message = f"{about.name}: no measurement is of the kind {kind}."
+            raise ValueError(message)
+
+
+def _about(entry: Mapping[str, Any]) -> About:
+    iso, survey = entry.get("iso"), entry["survey"]
+    return About(
+        name=entry["name"],
+        unit=Unit(entry["unit"]),
+        definition=entry["definition"],
+        source=entry["source"],
+        survey=SurveyDefinition(
+            fields=tuple(survey["fields"]),
+            share=survey.get("share", 1.0),
+            agreement=Agreement(survey["agreement"]),
+            definition=survey["definition"],
+            difference=survey["difference"],
+        ),
+        iso=iso
+        and IsoDefinition(
+            term=iso["term"],
+            clause=iso.get("clause"),
+            agreement=Agreement(iso["agreement"]),
+            difference=iso["difference"],
+        ),
+    )
+
+
+def _path(entry: Mapping[str, Any]) -> tuple[PointNames, ...]:
+    return tuple(tuple(step) for step in entry["path"])
 
 
 def points_of(definition: MeasurementDefinition) -> tuple[str, ...]:
@@ -249,22 +309,11 @@ def points_of(definition: MeasurementDefinition) -> tuple[str, ...]:
 
 
 def needed_points(definition: MeasurementDefinition) -> tuple[str, ...]:
-    """The landmarks and joints a definition stands on: those its places of the skin are found by.
-
-    Raises
-    ------
-    DefinitionError
-        If it names a place of the skin that there is not.
-    """
+    """Landmarks and joints a definition stands on, directly or by its places of the skin."""
     needed: list[str] = []
     for name in points_of(definition):
-        if not name.startswith(SKIN_PREFIX):
-            needed.append(name)
-            continue
-        if name not in load_skin_points():
-            message = f"{definition.about.name}: there is no place {name}."
-            raise DefinitionError(message)
-        needed.extend(load_skin_points()[name].needs)
+        is_on_skin = name.startswith(SKIN_PREFIX)
+        needed.extend(load_skin_points()[name].needs if is_on_skin else (name,))
     return tuple(needed)
 
 
@@ -277,3 +326,32 @@ def parts_of(definition: MeasurementDefinition) -> tuple[str, ...]:
             return definition.girth.parts
         case Length() | Height() | Mass():
             return ()
+
+
+INTERVAL_SD: Final = 1.959964
+"""Half of a 95 % interval, in standard errors."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measurement:
+    """One anthropometric measurement in its unit.
+
+    Attributes
+    ----------
+    name
+        A stable snake_case name, e.g. ``waist_girth_navel``.
+    value, unit
+        The value in ``unit``: ``cm`` or ``kg``.
+    standard_error
+        The Laplace approximation's standard deviation at the final body, in ``unit``; None where
+        it was not computed.
+    definition, source
+        How it is taken, and by whom it is so defined.
+    """
+
+    name: str
+    value: float
+    unit: str
+    standard_error: float | None
+    definition: str
+    source: str

@@ -7,12 +7,12 @@ drawn by ``python -m fitter.training.report.measurement_atlas``.
 import sys
 from collections.abc import Sequence
 
-from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import (
     Agreement,
     IsoDefinition,
     MeasurementDefinition,
     SurveyDefinition,
+    load_definitions,
 )
 from fitter.vocabulary.measurements import Group, group_of
 

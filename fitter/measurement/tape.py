@@ -90,7 +90,7 @@ def girth_placement(
 ) -> float:
     """The fraction of the axis where the girth is largest or smallest within its range.
 
-    A scan, then one parabola through the best cut and its neighbours.
+    Even steps, then one parabola through the best cut and its neighbours.
     """
     low, high = girth.fractions
     if low == high:

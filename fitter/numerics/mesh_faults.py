@@ -108,7 +108,7 @@ def pierced_triangles(
     vertices, triangles
         The mesh.
     edges
-        Its undirected edges (:func:`fitter.numerics.mesh_topology.mesh_topology`).
+        Its undirected edges (:func:`fitter.numerics.meshes.mesh_topology`).
     """
     vertices = np.ascontiguousarray(vertices, dtype=np.float64)
     low, high = vertices.min(axis=0), vertices.max(axis=0)

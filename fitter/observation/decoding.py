@@ -19,8 +19,14 @@ from PIL import Image as PillowImage
 from PIL import ImageCms
 
 from fitter.errors import InvalidInputError
-from fitter.observation.exif import ExifTags, read_exif
-from fitter.observation.heif import FORMAT, ORIENTATION, is_heif, ready_decoder
+from fitter.observation.picture_files import (
+    FORMAT,
+    ORIENTATION,
+    ExifTags,
+    is_heif,
+    read_exif,
+    ready_decoder,
+)
 from fitter.remarks import FitWarning
 
 LEAST_SIDE_PX = 64

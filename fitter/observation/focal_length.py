@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from fitter.errors import InvalidInputError
-from fitter.observation.exif import ExifTags
+from fitter.observation.picture_files import ExifTags
 from fitter.remarks import Assumption
 from fitter.render.camera import (
     ASSUMED_FOCAL_LENGTH_MM,

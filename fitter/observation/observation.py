@@ -22,13 +22,14 @@ from fitter.observation.clicks import (
     scaled_clicks,
     side_warnings,
 )
-from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.decoding import decode_coverage, decode_picture
 from fitter.observation.focal_length import focal_length
-from fitter.observation.resampling import (
+from fitter.observation.pixels import (
     WorkingSize,
+    bytes_of_display,
     display_working_picture,
     linear_working_picture,
+    luminance_of,
     working_coverage,
     working_size,
 )
@@ -36,8 +37,35 @@ from fitter.observation.subject import check_light
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.request import Click, SaidClothing, View
-from fitter.vocabulary.choices import Clothing, Posture, SegmentationKind, ViewKind
+from fitter.vocabulary.choices import (
+    BodyRegion,
+    Clothing,
+    Covering,
+    Posture,
+    SegmentationKind,
+    ViewKind,
+)
 from fitter.vocabulary.outcomes import FocalLengthSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WornRegion:
+    """Most probable covering of a region.
+
+    Attributes
+    ----------
+    probability
+        Of ``kind``, in [0, 1].
+    ease_m, ease_standard_error_m
+        How far clothes stand off the body there on average, metres; None where they do not, or
+        where the outline was not found on lines.
+    """
+
+    region: BodyRegion
+    kind: Covering
+    probability: float
+    ease_m: float | None = None
+    ease_standard_error_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -11,15 +11,12 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
-from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.energies.objective import Candidate, Objective
-from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
-from fitter.evidence.intensity import IntensityMap
-from fitter.numerics.mesh_topology import grown, mesh_part
+from fitter.energies.objective import Candidate, JointCandidate, JointObjective, Objective
+from fitter.energies.shading import IntensityMap, ShadingEvidence, seen_vertices, usable_vertices
+from fitter.numerics.meshes import grown, mesh_part
 from fitter.numerics.surface_sample import SurfaceSample
-from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.hidden_reflectance import HiddenVertices
-from fitter.optimizer.light_step import (
+from fitter.optimizer.light_solve import (
     darkest,
     first_state,
     with_new_light,
@@ -30,7 +27,7 @@ from fitter.optimizer.reflectance_solve import (
     ReflectanceProblem,
     ReflectanceSolver,
 )
-from fitter.optimizer.search import BodySearch
+from fitter.optimizer.search import BodySearch, Minimum
 from fitter.parameters import Light, Reflectance
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms

@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Shape
 from fitter.body.scape import BodyDerivative, increment
-from fitter.energies.attributes import Attributes
+from fitter.energies.shape_terms import Attributes
 from fitter.errors import NumericalError
 from fitter.parameters import BodyParameters
 

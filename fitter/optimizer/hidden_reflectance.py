@@ -13,9 +13,8 @@ from scipy import sparse
 
 from fitter.arrays import Image, PerVertex, Vertices
 from fitter.energies.objective import Candidate
-from fitter.energies.shading import seen_vertices
-from fitter.evidence.intensity import IntensityMap
-from fitter.evidence.sampling import sample
+from fitter.energies.shading import IntensityMap, seen_vertices
+from fitter.observation.maps import sample
 
 # Ties components without any known vertex to the mean of the known values.
 _RIDGE = 1e-6

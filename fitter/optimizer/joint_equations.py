@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.energies.joint_objective import JointCandidate, JointObjective
+from fitter.energies.objective import JointCandidate, JointObjective
 from fitter.optimizer.free_space import FreeSpace
 from fitter.optimizer.normal_equations import normal_equations
 

@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import PerVertex
-from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+from fitter.energies.rows import geman_mcclure, geman_mcclure_weights
 from fitter.optimizer._pair_factor_kernels import factor_pattern, factorise, solve_factorised
 
 

@@ -1,17 +1,167 @@
-"""Which optimiser is used, and for how long."""
+"""Searches for the body of least energy: which optimiser is used, and for how long.
+
+The default is damped Gauss-Newton on E1 or E2, accepted on the true energy. Rows from the contour,
+the edges, the clicks, the spheres and the shading give a 74 x 74 normal matrix of each picture; the
+gradient is exact, by the reverse mode of the body. Pictures meet in the shape
+(:mod:`fitter.optimizer.joint_equations`). The loop is :mod:`fitter.numerics.damped_descent`. The
+paper's optimiser is Nelder and Mead's simplex search on the same energy (section 3).
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
+
 from fitter.arrays import Image
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
-from fitter.evidence.correspondence_lines import correspondence_lines
+from fitter.energies.correspondence_lines import correspondence_lines
+from fitter.energies.objective import (
+    Body,
+    Candidate,
+    EnergyObserver,
+    JointCandidate,
+    JointObjective,
+    Objective,
+)
 from fitter.evidence.loose_outline import LooseOutline
-from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum, minimize_gauss_newton
-from fitter.optimizer.simplex import minimize_simplex
+from fitter.numerics.damped_descent import Offer, descend
+from fitter.optimizer.free_space import excess, free_space
+from fitter.optimizer.joint_equations import joint_equations
 from fitter.vocabulary.choices import OptimizerKind
+
+SETTLED_NATS = 0.05
+"""A step that promises less is not tried, and two in a row that gain less end the search. A tenth
+of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy about as
+rough."""
+
+NEARLY_SETTLED_NATS = 0.2
+"""The same of a search that another follows, about other evidence."""
+
+FIRMLY_SETTLED_NATS = 0.02
+"""The same of the last search. So far above the minimum a measurement is a fifth of its standard
+error off, √(2 · 0.02), where it would be a third at 0.05: pictures that differ by what nobody sees
+would end apart by as much."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Minimum:
+    """End of a search.
+
+    ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies, of
+    all pictures together.
+    """
+
+    candidate: JointCandidate
+    converged: bool
+    evaluations: int
+
+
+def minimize_gauss_newton(
+    objective: JointObjective,
+    start: Sequence[Body],
+    *,
+    max_evaluations: int,
+    on_energies: EnergyObserver,
+    settled_nats: float = SETTLED_NATS,
+) -> Minimum:
+    """Minimise from ``start`` until steps gain less than ``settled_nats`` or no damping helps.
+
+    ``start`` holds a body for each picture, all of one shape that has what the objective holds.
+    """
+
+    def paraboloid(now: JointCandidate) -> Callable[[float], Offer[JointCandidate]]:
+        space = free_space(objective.attributes.held, now.shape)
+        equations = joint_equations(objective, now, space)
+
+        def offer(damping: float) -> Offer[JointCandidate]:
+            step = equations.step(damping)
+
+            def taken() -> JointCandidate | None:
+                change = space.directions @ step.shape
+                longest = max(
+                    excess(body, np.concatenate([own, change]))
+                    for body, own in zip(now.bodies, step.own, strict=True)
+                )
+                share = 1.0 / max(longest, 1.0)
+                reached = space.moved(now.bodies, [share * own for own in step.own], share * change)
+                return None if reached is None else objective.evaluate(reached)
+
+            return Offer(promised=step.promised, taken=taken)
+
+        return offer
+
+    found = descend(
+        objective.evaluate(start),
+        paraboloid,
+        max_evaluations=max_evaluations,
+        settled=settled_nats,
+        on_accepted=lambda candidate: on_energies(candidate.energies),
+    )
+    return Minimum(candidate=found.point, converged=found.converged, evaluations=found.evaluations)
+
+
+# First simplex: a few degrees, centimetres and half a standard deviation along each axis.
+_FIRST_TURN = 0.05
+_FIRST_MOVE_M = 0.02
+_FIRST_SHAPE = 0.5
+_REPORT_EVERY = 50
+
+
+def minimize_simplex(
+    objective: JointObjective,
+    start: Sequence[Body],
+    *,
+    max_evaluations: int,
+    on_energies: EnergyObserver,
+) -> Minimum:
+    """Nelder and Mead's search with coefficients adapted to the dimension (Gao and Han 2012).
+
+    ``start`` holds a body for each picture, as in :func:`minimize_gauss_newton`.
+    """
+    best = objective.evaluate(start)
+    first = best.bodies
+    space = free_space(objective.attributes.held, best.shape)
+    spread = np.concatenate([np.full(first[0].pose.size, _FIRST_TURN), np.full(3, _FIRST_MOVE_M)])
+    evaluations = 1
+    on_energies(best.energies)
+
+    def energy(step: np.ndarray) -> float:
+        nonlocal best, evaluations
+        *own, shape = np.split(step, len(spread) * np.arange(1, len(first) + 1))
+        # The spread is the same for all shape coefficients, since the directions mix them.
+        change = _FIRST_SHAPE * (space.directions @ shape)
+        reached = space.moved(first, [spread * each for each in own], change)
+        evaluations += 1
+        if reached is None:
+            return np.inf
+        candidate = objective.evaluate(reached)
+        if candidate.total < best.total:
+            best = candidate
+        if evaluations % _REPORT_EVERY == 0:
+            on_energies(best.energies)
+        return candidate.total
+
+    # Loaded by those who ask for it: three megabytes, and a tenth of a second.
+    from scipy.optimize import minimize
+
+    dimension = len(first) * len(spread) + space.directions.shape[1]
+    corners = np.vstack([np.zeros(dimension), np.eye(dimension)])
+    outcome = minimize(
+        energy,
+        np.zeros(dimension),
+        method="Nelder-Mead",
+        options={
+            "initial_simplex": corners,
+            "adaptive": True,
+            "maxfev": max_evaluations - 1,
+            "maxiter": max_evaluations,
+            "fatol": 1e-3,
+            "xatol": 1e-3,
+        },
+    )
+    on_energies(best.energies)
+    return Minimum(candidate=best, converged=bool(outcome.success), evaluations=evaluations)
+
 
 BodySearch = Callable[[JointObjective, Sequence[Body]], Minimum]
 """From a body in each picture to a minimum."""

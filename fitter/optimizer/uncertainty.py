@@ -15,18 +15,17 @@ from fitter.arrays import Shape
 from fitter.body.tangent import linearise
 from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.energies.objective import Candidate, Objective
-from fitter.energies.priors import height_extrapolation
+from fitter.energies.objective import Candidate, JointCandidate, JointObjective, Objective
+from fitter.energies.shape_terms import height_extrapolation
 from fitter.energies.stance import stance_rows
 from fitter.optimizer.free_space import FreeSpace, free_space
 from fitter.optimizer.normal_equations import (
     RowsWithNuisance,
     normal_equations,
     nuisance_covariance,
+    position_row_jacobian,
     support_points,
 )
-from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.parameters import CameraTilt
 from fitter.vocabulary.choices import ClothedRegion
 from fitter.vocabulary.outcomes import StanceKind
@@ -110,7 +109,7 @@ def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.
 
     The height is never estimated from the picture: ``height_variance`` is the population's, given
     what is known, in its coefficient's unit; zero for a height that is known. Beyond usual heights
-    all is wider (:func:`fitter.energies.priors.height_extrapolation`).
+    all is wider (:func:`fitter.energies.shape_terms.height_extrapolation`).
     """
     response = certain.height_response
     n = len(response)

@@ -29,7 +29,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
-from fitter.numerics.array_archive import write_arrays
+from fitter.body.storage import write_arrays
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.person_checks import FORMAT_VERSION, checked_person, unusable_person
 from fitter.render.camera import Camera

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fitter.body.storage import read_arrays
 from fitter.errors import InvalidInputError
-from fitter.numerics.array_archive import read_arrays
 from fitter.vocabulary.choices import Gender, LightKind
 
 FORMAT_VERSION = 1

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape
-from fitter.energies.priors import POPULATION_PRECISION, height_extrapolation, population_prior
+from fitter.energies.shape_terms import POPULATION_PRECISION, height_extrapolation, population_prior
 from fitter.errors import InvalidInputError
 from fitter.person.fitted_person import FittedPerson
 

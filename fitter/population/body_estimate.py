@@ -7,11 +7,11 @@ import numpy as np
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape, Vertices
-from fitter.energies.priors import height_extrapolation
+from fitter.energies.shape_terms import height_extrapolation
 from fitter.measurement.anthropometry import measure
-from fitter.measurement.quantity import INTERVAL_SD, Measurement
+from fitter.measurement.definitions import INTERVAL_SD, Measurement
+from fitter.population.conditional_shape import MeasuredPopulation, height_warnings
 from fitter.population.known import conditioned_population
-from fitter.population.measured_population import MeasuredPopulation, height_warnings
 from fitter.remarks import FitWarning
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE
@@ -71,7 +71,7 @@ def estimate_body(
     Intervals are the population's spread given what is known, in the model's own terms (a Gaussian,
     linearised at the estimate): how people differ who agree in what was given. They do not include
     the error of the model itself, but are wider where nobody surveyed was of the height
-    (:func:`fitter.energies.priors.height_extrapolation`).
+    (:func:`fitter.energies.shape_terms.height_extrapolation`).
 
     Raises
     ------

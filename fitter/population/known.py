@@ -7,8 +7,12 @@ from jaxtyping import Float
 from scipy.special import chdtri
 
 from fitter.errors import InvalidInputError
-from fitter.population.conditional_shape import ConditionedShape, Conditions, condition_shape
-from fitter.population.measured_population import MeasuredPopulation
+from fitter.population.conditional_shape import (
+    ConditionedShape,
+    Conditions,
+    MeasuredPopulation,
+    condition_shape,
+)
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
@@ -23,7 +27,7 @@ OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
 RAREST_SD = 5.0
 """One person in two million is farther from the population's mean in a measurement, and the model,
 learned from a thousand people, knows nothing about such shapes. Heights are an exception: all have
-one, and what an unusual one costs is told (:mod:`fitter.population.measured_population`)."""
+one, and what an unusual one costs is told (:mod:`fitter.population.conditional_shape`)."""
 
 _RAREST_SHARE = 5.733e-7
 """The share of people beyond that on either side; combined measurements are judged by it too."""

@@ -8,11 +8,11 @@ import numpy as np
 from fitter.arrays import Shape
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, shape_for_height, shape_with_height
-from fitter.energies.attributes import NOTHING_KNOWN, Attributes, KnownAttributes
+from fitter.energies.shape_terms import NOTHING_KNOWN, Attributes, KnownAttributes
 from fitter.observation.subject import subject_height
 from fitter.optimizer.free_space import held_shape
+from fitter.population.conditional_shape import MeasuredPopulation, height_warnings
 from fitter.population.known import conditioned_population
-from fitter.population.measured_population import MeasuredPopulation, height_warnings
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import KnownMeasurement, Person
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from scipy.stats import bootstrap
 
-from fitter.measurement.quantity import INTERVAL_SD
+from fitter.measurement.definitions import INTERVAL_SD
 
 RESAMPLES: Final = 9_999
 SEED: Final = 2009

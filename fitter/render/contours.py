@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import Mask
-from fitter.numerics.mesh_topology import MeshTopology
+from fitter.numerics.meshes import MeshTopology
 from fitter.render import _contour_kernels
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, NEAR_PLANE_M, Rendering
 

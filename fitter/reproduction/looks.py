@@ -19,8 +19,8 @@ from fitter.export.bundle import reflectance_pictures
 from fitter.export.display import finer, to_levels
 from fitter.export.pictures import overlay_picture
 from fitter.export.views import BodyView, before_onlooker, coloured_body, middle_of, preview
-from fitter.fits.prepared_model import prepared_model
-from fitter.numerics.mesh_topology import mesh_topology
+from fitter.fits.equipment import prepared_model
+from fitter.numerics.meshes import mesh_topology
 from fitter.observation.decoding import decode_picture
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image

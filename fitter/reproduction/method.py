@@ -9,12 +9,12 @@ import numpy as np
 from fitter.arrays import Shape
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
+from fitter.energies.edges import edge_cost_map
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.evidence.edge_cost import edge_cost_map
 from fitter.export.display import to_levels
 from fitter.export.views import coloured_body
+from fitter.fits.equipment import prepared_model
 from fitter.fits.pipeline import PACKAGED, fit
-from fitter.fits.prepared_model import prepared_model
 from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import turn_head

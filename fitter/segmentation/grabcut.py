@@ -22,7 +22,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.errors import InvalidInputError
-from fitter.numerics.masks import window_about
+from fitter.observation.maps import window_about
 from fitter.remarks import FitWarning
 from fitter.segmentation._band_kernels import link_band, mean_squared_difference
 from fitter.segmentation._max_flow_kernels import SOURCE, maximum_flow, push_to_neighbours

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage, Image, Mask
-from fitter.numerics.masks import exact_distances, window_about
+from fitter.observation.maps import exact_distances, window_about
 
 BAND_SHARE_OF_WIDTH = 0.05
 """The paper's: erode and dilate by 5 % of the picture's width."""

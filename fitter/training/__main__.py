@@ -14,6 +14,7 @@ from fitter.training.assemble import SHAPE_COUNT
 from fitter.training.build import (
     GENDERS,
     Materials,
+    Plan,
     read_materials,
     solved_population,
     train_model,
@@ -21,7 +22,6 @@ from fitter.training.build import (
 )
 from fitter.training.own_bodies.command import train_on_meshes, write_starting_folder
 from fitter.training.people.population import PACKAGED_PEOPLE
-from fitter.training.provenance import Plan
 from fitter.training.report.header_figures import unexplained_measurements
 from fitter.training.report.held_out_figures import held_out_figures
 from fitter.training.report.sections import Reported, report_lines

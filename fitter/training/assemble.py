@@ -13,8 +13,7 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape
-from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
-from fitter.numerics.meshes import triangle_areas
+from fitter.numerics.meshes import gradient_operator, part_laplacians, triangle_areas
 from fitter.training.articulation.joints import (
     fit_joint_regressor,
     regressed_joints,

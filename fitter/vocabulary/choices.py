@@ -33,17 +33,6 @@ class PaperEnergy(StrEnum):
     SHADING = "shading"
 
 
-class OutlineKind(StrEnum):
-    """What the body's contour is to meet; a mask the caller sent is always met as it is.
-
-    ``grabcut``: the segmentation, as in the paper. ``correspondence_lines``: once a body is near,
-    the person's boundary on lines across its contour, found by the colours around each.
-    """
-
-    GRABCUT = "grabcut"
-    LINES = "correspondence_lines"
-
-
 class SegmentationKind(StrEnum):
     """How the person is cut out where the caller sends no mask.
 

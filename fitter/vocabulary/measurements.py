@@ -21,7 +21,7 @@ CENTIMETRES_PER_METRE: Final = 100.0
 LEAST_HEIGHT_M: Final = 1.2
 MOST_HEIGHT_M: Final = 2.3
 """What a request may say of a height, whichever request. What is within and yet unusual is taken
-with a warning (:mod:`fitter.population.measured_population`)."""
+with a warning (:mod:`fitter.population.conditional_shape`)."""
 
 
 def _units() -> Mapping[str, str]:

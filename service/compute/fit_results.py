@@ -8,8 +8,8 @@ import numpy as np
 
 from api_schemas import results as wire
 from fitter.capture.finding import Box, Finding
-from fitter.measurement.quantity import Measurement
-from fitter.observation.covering import WornRegion
+from fitter.measurement.definitions import Measurement
+from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning

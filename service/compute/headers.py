@@ -5,8 +5,7 @@ from typing import Final
 
 from PIL import Image
 
-from fitter.observation.exif import read_exif
-from fitter.observation.heif import decodes_heif, ready_decoder
+from fitter.observation.picture_files import decodes_heif, read_exif, ready_decoder
 from service.compute.lanes import ANSWER, HEADER, PICTURE, HeaderAnswer
 from service.compute.tasks import ChildSetup, Observe, Parts, Task
 from service.submissions.image_header import DamagedImageError, read_image_header

@@ -172,7 +172,7 @@ def _compile_all() -> None:
     make_kernels_ready()
 
     from fitter.applications.caricature import caricature_of_most_unusual
-    from fitter.fits.prepared_model import prepared_model
+    from fitter.fits.equipment import prepared_model
     from fitter.person.fitted_person import FittedPerson
 
     person = FittedPerson.from_bytes(fit_sample())

@@ -24,7 +24,7 @@ def _load(settings: Settings) -> None:
     # Imported here: Numba reads once where its cache is.
     from fitter.detection.detector import installed_detector
     from fitter.errors import DetectorUnavailableError, ModelFileError
-    from fitter.fits.prepared_model import prepared_model
+    from fitter.fits.equipment import prepared_model
     from fitter.vocabulary.choices import Gender
 
     # Without a detector, whoever needs it is told.

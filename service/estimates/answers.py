@@ -9,8 +9,8 @@ from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
 from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
+from fitter.fits.equipment import prepared_model
 from fitter.fits.initial_body import initial_body
-from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose
 from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body

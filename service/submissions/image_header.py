@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Final
 
 from api_schemas.base import WireModel
-from fitter.observation.heif import FORMAT, decodes_heif, is_heif, ready_decoder
+from fitter.observation.picture_files import FORMAT, decodes_heif, is_heif, ready_decoder
 
 HEIC: Final = "image/heic"
 KINDS: Final = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp", FORMAT: HEIC}
@@ -56,7 +56,7 @@ def read_image_header(content: bytes) -> ImageHeader:
     # Imported here: the API knows of headers and loads no decoder.
     from PIL import Image
 
-    from fitter.observation.exif import ExifTags, read_exif
+    from fitter.observation.picture_files import ExifTags, read_exif
 
     if kind == FORMAT:
         ready_decoder("image")

@@ -17,7 +17,7 @@ from api_schemas.points import AUTO, Point, Points, PointsFormat, named_points
 from api_schemas.problems import FieldProblem, Problem, problem
 from api_schemas.questions import PointsRequest
 from fitter.detection.weights import INSTALLATION, detector_fault
-from fitter.observation import heif
+from fitter.observation import picture_files
 from fitter.vocabulary.points import PointFault, PointName, place_faults, shortage
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
 from service.submissions.image_header import (
@@ -142,9 +142,9 @@ def check_picture(
         raise refused(
             FieldProblem(
                 field=field,
-                code=heif.NOT_INSTALLED_CODE,
-                reason=heif.NOT_INSTALLED,
-                remedy=heif.REMEDY,
+                code=picture_files.NOT_INSTALLED_CODE,
+                reason=picture_files.NOT_INSTALLED,
+                remedy=picture_files.REMEDY,
             ),
             slug="unsupported-media-type",
         ) from error

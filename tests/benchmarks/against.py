@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.survey_comparison import note_lines, table_lines
 
 HERE = Path(__file__).parents[2]
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 from statistics import median
 
-from fitter.training.report.text_tables import note_lines
+from fitter.training.report.survey_comparison import note_lines
 from tests.deployment import REPOSITORY
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.survey_comparison import note_lines, table_lines
 from tests.benchmarks import demo, idle, overhead, several, throughput
 
 SERVICES = 2

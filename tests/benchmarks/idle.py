@@ -9,7 +9,7 @@ from statistics import median
 
 import httpx
 
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.survey_comparison import note_lines, table_lines
 from tests.benchmarks.served import ready, running
 from tests.deployment import Deployment, Kind
 from tests.e2e.service import wait_for_estimator

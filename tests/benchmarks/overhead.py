@@ -10,7 +10,7 @@ from pathlib import Path
 
 import httpx
 
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.survey_comparison import note_lines, table_lines
 from tests.benchmarks.served import NO_WORKER, ready, running, used_s
 from tests.deployment import Deployment, Kind
 from tests.submissions import Submission, small_submissions

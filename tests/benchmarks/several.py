@@ -5,7 +5,7 @@ from statistics import median
 
 from fitter.fits.pipeline import fit
 from fitter.request import FitRequest
-from fitter.training.report.text_tables import note_lines
+from fitter.training.report.survey_comparison import note_lines
 from fitter.vocabulary.choices import Cues, ViewKind
 from tests.benchmarks.requests import warm_up
 from tests.benchmarks.spent import processor_s

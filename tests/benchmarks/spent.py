@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fitter.export.bundle import result_files
+from fitter.fits.equipment import prepared_model
 from fitter.fits.pipeline import fit
-from fitter.fits.prepared_model import prepared_model
 from fitter.request import FitRequest
 
 

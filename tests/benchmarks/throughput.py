@@ -7,7 +7,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.synchronize import Barrier
 
 from fitter.fits.pipeline import fit
-from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.training.report.survey_comparison import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 
 PROCESSES = (1, 2)

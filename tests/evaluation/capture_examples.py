@@ -7,7 +7,7 @@ from fitter.capture.finding import Code
 from fitter.detection.detector import Detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
-from fitter.observation.exif import ExifTags
+from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.capture_forms import (
     Picture,

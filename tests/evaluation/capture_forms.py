@@ -10,8 +10,7 @@ from jaxtyping import UInt8
 from fitter.arrays import Mask
 from fitter.capture.finding import Code
 from fitter.fits.capture_check import CaptureQuestion
-from fitter.observation.colour import display_from_linear, linear_from_display
-from fitter.observation.resampling import WORKING_PIXELS
+from fitter.observation.pixels import WORKING_PIXELS, display_from_linear, linear_from_display
 
 Picture = UInt8[np.ndarray, "h w 3"]
 

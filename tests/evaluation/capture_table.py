@@ -13,7 +13,7 @@ from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
-from fitter.observation.exif import ExifTags
+from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.capture_forms import Form, Picture, Source, spoilt_forms
 from tests.evaluation.capture_truth import variants_of

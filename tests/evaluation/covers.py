@@ -17,7 +17,7 @@ from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
 from fitter.fits.pipeline import fit
-from fitter.observation.colour import display_from_linear, linear_from_display, luminance_of
+from fitter.observation.pixels import display_from_linear, linear_from_display, luminance_of
 from fitter.segmentation.skin_colour import nearest_of
 from fitter.vocabulary.choices import BodyRegion, Covering, Cues
 from fitter.vocabulary.outcomes import Severity

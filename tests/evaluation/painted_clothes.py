@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Shaped
 from PIL import Image as PillowImage
 
-from fitter.observation.colour import display_from_linear, linear_from_display, luminance_of
+from fitter.observation.pixels import display_from_linear, linear_from_display, luminance_of
 from fitter.render.rasterizer import render
 from fitter.vocabulary.choices import Clothing, Cues
 from tests.evaluation.foreign import foreign_names, foreign_picture

@@ -10,8 +10,8 @@ from unittest import mock
 
 import numpy as np
 
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.priors import population_prior
+from fitter.energies.objective import JointObjective
+from fitter.energies.shape_terms import population_prior
 from fitter.fits import paper
 from fitter.fits.pipeline import fit
 from fitter.request import Paper

@@ -16,9 +16,8 @@ from scipy import sparse
 
 from fitter.arrays import Pose, Vertices
 from fitter.training.articulation.joints import joint_rows_of_bones
-from fitter.training.articulation.relaxed_hands import with_curled_fingers
 from fitter.training.articulation.rig import bone_heads, load_rig, posed_vertices
-from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_mesh
+from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_mesh, with_curled_fingers
 from fitter.training.makehuman.meshes import BaseMesh, load_base_mesh, makehuman_folder
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.scene import PersonSource

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from tests.evaluation.clicks import rendering
 from tests.evaluation.people import load_person, rig_of_people
 from tests.evaluation.people_table import PEOPLE

@@ -8,7 +8,7 @@ from jaxtyping import UInt8
 from fitter.arrays import Mask
 from fitter.body.model import regress
 from fitter.fits.clothing import FACE_CLICKS
-from fitter.observation.colour import linear_from_display
+from fitter.observation.pixels import linear_from_display
 from fitter.render.rasterizer import render
 from fitter.segmentation.coverage import coverage
 from fitter.segmentation.skin_colour import PersonRegions, face_point, nearest_part, skin_map

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Integer
 
 from fitter.arrays import GreyImage, Triangles, Vertices
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image
 from tests.evaluation.landmark_points import packaged_model

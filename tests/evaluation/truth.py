@@ -8,9 +8,8 @@ from jaxtyping import Float
 
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model import regress
-from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.affine_body import AffineBody
-from fitter.measurement.anthropometry import measure
+from fitter.fits.equipment import prepared_model
+from fitter.measurement.anthropometry import AffineBody, measure
 from fitter.parameters import Light
 from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE

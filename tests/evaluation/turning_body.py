@@ -18,7 +18,7 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import to_levels
 from fitter.export.views import turned_about_vertical
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera

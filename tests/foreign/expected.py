@@ -16,7 +16,7 @@ from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
 from fitter.applications.rig import rig_of
 from fitter.arrays import Vertices
-from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
 from fitter.person.upright import upright_frame, upright_turn
 from fitter.vocabulary.choices import Gender

@@ -17,7 +17,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.rasterizer import render
 from service.demo_data.sample import FOLDER

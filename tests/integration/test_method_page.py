@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.fits.equipment import PreparedModel
 from fitter.fits.pipeline import PACKAGED
-from fitter.fits.prepared_model import PreparedModel
-from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import load_definitions
 from fitter.optimizer.alternation import SMOOTHNESS_SCHEDULE
-from fitter.optimizer.light_step import SPECULAR_EXPONENT
+from fitter.optimizer.light_solve import SPECULAR_EXPONENT
 from fitter.vocabulary.choices import Gender
 
 ROOT = Path(__file__).parents[2]

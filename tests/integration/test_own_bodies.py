@@ -12,8 +12,8 @@ from fitter.body.model import BodyModel, regress
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices, shape_for_height, stature_m
 from fitter.body.storage import load_body_model
+from fitter.fits.equipment import prepared_model
 from fitter.fits.initial_body import initial_body
-from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
 from fitter.request import Click, Person, View
 from fitter.training.__main__ import main

@@ -5,7 +5,7 @@ import pytest
 from fitter.body.storage import load_body_model
 from fitter.training import build
 from fitter.training.__main__ import main
-from fitter.training.articulation import inner_points
+from fitter.training.articulation import bone_centres as inner_points
 from fitter.training.report import held_out_figures, sections
 from tests.unit.training.makehuman_data import needs_makehuman
 

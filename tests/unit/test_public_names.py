@@ -42,7 +42,6 @@ NAMES = [
     "NumericalError",
     "OptimizerKind",
     "Outcome",
-    "OutlineKind",
     "Paper",
     "PaperEnergy",
     "Person",

@@ -17,7 +17,7 @@ from trimesh.exchange.stl import export_stl
 
 from fitter.export.display import to_levels
 from fitter.export.formats.shown_body import ShownBody, Texture, shown_body
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 
 MATERIAL = "skin"
 

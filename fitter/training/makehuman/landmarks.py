@@ -3,7 +3,7 @@
 Every landmark is found by what it is, on the average of both genders' average bodies: an extremum
 near a joint, the vertex a target moves most, the rim of an eye. The points of the COCO convention
 that lie inside the body (shoulder, elbow, wrist, hip, knee, ankle) are fitted to the subjects that
-a model is trained on (:mod:`fitter.training.articulation.inner_points`).
+a model is trained on (:mod:`fitter.training.articulation.bone_centres`).
 """
 
 from collections.abc import Mapping, Sequence

@@ -22,8 +22,12 @@ from fitter.training.articulation.pose_term import (
 )
 from fitter.training.assemble import ShapeSpace, learn_body_model
 from fitter.training.own_bodies.folder import LEAST_SUBJECTS, REST_FOLDER, OwnBodies, Scan
-from fitter.training.own_bodies.part_poses import refined_pose, solved_pose
-from fitter.training.own_bodies.pose_terms import no_pose_term, transferred_pose_term
+from fitter.training.own_bodies.pose_terms import (
+    no_pose_term,
+    refined_pose,
+    solved_pose,
+    transferred_pose_term,
+)
 from fitter.training.own_bodies.template import packaged_template, same_surface
 from fitter.training.report.header_figures import model_statistics
 from fitter.training.report.held_out_figures import (

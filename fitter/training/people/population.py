@@ -17,17 +17,15 @@ from fitter.body.model import SparseRows
 from fitter.training.makehuman.body_space import BodySpace, Traits, source_vertices
 from fitter.training.makehuman.phenotypes import FACE_CHANGES, age_of_appearance
 from fitter.training.people.subject_fit import Placed, Wanted, fit_subject, measured, place
-from fitter.training.surveys.civilians import (
-    CivilianStatistics,
-    draw_civilian,
-    load_civilians,
-    packaged_civilians_path,
-)
 from fitter.training.surveys.survey import (
+    CivilianStatistics,
     SurveyStatistics,
+    draw_civilian,
     draw_measurements,
+    load_civilians,
     load_statistics,
     on_the_model,
+    packaged_civilians_path,
     packaged_statistics_path,
 )
 from fitter.training.surveys.survey_measurements import (

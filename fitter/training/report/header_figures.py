@@ -7,8 +7,7 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, rest_vertices, standing_vertices
 from fitter.measurement.anthropometry import UNEXPLAINED_KEY, measurement_values, measuring_body
-from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.definitions import Mass
+from fitter.measurement.definitions import Mass, load_definitions
 from fitter.numerics.meshes import enclosed_volume
 from fitter.training.assemble import TrainedModel, height_attribute
 from fitter.training.people.subject_fit import DENSITY_KG_PER_M3

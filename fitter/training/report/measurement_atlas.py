@@ -23,7 +23,7 @@ from fitter.export.views import turned_about_vertical
 from fitter.measurement.anthropometry import measuring_body, tape_lines
 from fitter.measurement.definitions import Extent, Height, Length
 from fitter.measurement.document import ATLAS_FOLDER, sheet_name
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import Rendering, render, shade_image
 from fitter.vocabulary.measurements import Group, group_of

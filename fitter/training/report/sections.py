@@ -6,14 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.body.model import BodyModel
-from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import load_definitions
 from fitter.training.report.header_figures import EARLIER_METHODS_KEY
 from fitter.training.report.survey_comparison import (
     comparison_lines,
     drawn_measurements,
     survey_comparison,
+    table_lines,
 )
-from fitter.training.report.text_tables import table_lines
 
 AGREED = 1e-3
 """Of every held-out figure: micrometres, and thousandths of a correlation. Single precision is

@@ -5,8 +5,11 @@ each person is weighted, so that the weighted people have the survey's joint dis
 and weight; what then differs is definition, pose, age and model.
 """
 
-from collections.abc import Sequence
+import json
+import textwrap
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -16,9 +19,79 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.measurement.anthropometry import measurement_values, measuring_body
 from fitter.measurement.definitions import MeasurementDefinition
-from fitter.training.report.text_tables import note_lines, table_lines
 from fitter.training.surveys.survey import load_statistics, packaged_statistics_path
-from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+
+INDENT = "  "
+NOTE_WIDTH = 92
+
+
+def table_lines(
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]
+) -> tuple[str, ...]:
+    """A title, column heads and rows: the first column to the left, the others to the right.
+
+    Parameters
+    ----------
+    columns
+        Heads; the first may be empty.
+    rows
+        As many cells each as there are heads.
+    """
+    cells = [list(columns), *(list(row) for row in rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(columns))]
+    lines = [
+        row[0].ljust(widths[0])
+        + "".join(f"  {cell.rjust(width)}" for cell, width in zip(row[1:], widths[1:], strict=True))
+        for row in cells
+    ]
+    # Without heads there is no line for them.
+    shown = lines if any(columns) else lines[1:]
+    return (INDENT + title, *(2 * INDENT + line.rstrip() for line in shown))
+
+
+def note_lines(text: str) -> tuple[str, ...]:
+    """Sentences, wrapped and indented."""
+    return tuple(2 * INDENT + line for line in textwrap.wrap(text, NOTE_WIDTH))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SurveyMoments:
+    """First and second moments of survey fields among one gender; centimetres and kilograms."""
+
+    names: tuple[str, ...]
+    count: int
+    mean: Float[np.ndarray, " q"]
+    covariance: Float[np.ndarray, "q q"]
+
+    def of(
+        self, combinations: Sequence[Mapping[str, float]]
+    ) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, "c c"]]:
+        """Mean and covariance of weighted sums of fields."""
+        rows = np.array(
+            [[weights.get(name, 0.0) for name in self.names] for weights in combinations]
+        )
+        unknown = {name for weights in combinations for name in weights} - set(self.names)
+        if unknown:
+            message = f"no moments of {', '.join(sorted(unknown))}"
+            raise KeyError(message)
+        return rows @ self.mean, rows @ self.covariance @ rows.T
+
+
+def packaged_moments_path() -> Path:
+    """The committed moments."""
+    return Path(__file__).parents[1] / "surveys" / "data" / "survey_moments.json"
+
+
+def load_moments(path: Path, gender: str) -> SurveyMoments:
+    """Read the moments of ``female`` or ``male``."""
+    content = json.loads(path.read_text())[gender]
+    return SurveyMoments(
+        names=tuple(content["names"]),
+        count=int(content["count"]),
+        mean=np.array(content["mean"]),
+        covariance=np.array(content["covariance"]),
+    )
+
 
 PEOPLE = 1000
 GIVEN = ("stature", "weight")

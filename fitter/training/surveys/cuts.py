@@ -6,16 +6,32 @@ corners are found anew when the body has changed much.
 """
 
 from dataclasses import dataclass
+from typing import no_type_check
 
 import numpy as np
 from jaxtyping import Float, Integer
+from numba import njit
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull
 
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.errors import NumericalError
-from fitter.training.surveys._cut_kernels import crossed_triangles
+
+
+@no_type_check
+@njit(cache=True)
+def crossed_triangles(side, triangles):
+    """Triangles with corners on both sides; a corner at zero counts as above."""
+    found = np.empty(len(triangles), np.int64)
+    count = 0
+    for triangle in range(len(triangles)):
+        first, second, third = triangles[triangle]
+        above = side[first] >= 0.0
+        if (side[second] >= 0.0) != above or (side[third] >= 0.0) != above:
+            found[count] = triangle
+            count += 1
+    return found[:count]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -11,7 +11,7 @@ from api_schemas.products.base import ProductResult
 from api_schemas.results import Measurement
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.errors import InvalidInputError
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.measurement.joint_measurements import JointMeasurements, joint_measurements
 from fitter.person.fitted_person import FittedPerson, require_model
 from service.jobs.inputs import PERSON, RESULT

@@ -11,7 +11,7 @@ from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.surface_field import extend_values
 from fitter.applications.texture import TexelOrigin, picture_texture
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.observation.colour import linear_from_display
+from fitter.observation.pixels import linear_from_display
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera

@@ -17,7 +17,7 @@ from fitter.applications.texture import (
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
-from fitter.observation.colour import linear_from_display
+from fitter.observation.pixels import linear_from_display
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera

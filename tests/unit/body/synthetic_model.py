@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitter.body.model import BodyModel, LighterMesh, SparseRows
-from fitter.numerics.gradient_operators import gradient_operator
+from fitter.numerics.meshes import gradient_operator
 
 
 def undecimated(triangles: np.ndarray, count: int) -> LighterMesh:

@@ -7,7 +7,7 @@ from scipy.sparse.linalg import spsolve
 from fitter.body.model import global_rotations
 from fitter.body.scape import CAMERA_AXES, ScapeEvaluator, increment
 from fitter.body.shape_space import height_of_shape, rest_vertices, shape_for_height
-from fitter.numerics.gradient_operators import gradient_operator
+from fitter.numerics.meshes import gradient_operator
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
 from tests.unit.body.synthetic_model import bar_model

@@ -6,7 +6,7 @@ import pytest
 from fitter.capture.clothes import clothes
 from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.posture import arms, free_share
-from fitter.observation.covering import WornRegion
+from fitter.observation.observation import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import by_points_alone, capture, person

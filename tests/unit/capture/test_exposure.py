@@ -11,7 +11,7 @@ from fitter.capture.picture_quality import (
     burnt_share,
     darkness,
 )
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from tests.unit.capture.made_up import by_points_alone, capture
 
 

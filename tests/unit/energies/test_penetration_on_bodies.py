@@ -22,8 +22,8 @@ from fitter.energies.penetration import (
     sphere_positions,
 )
 from fitter.energies.scales import scales_at
-from fitter.fits.prepared_model import prepared_model
-from fitter.numerics.normals import summed_cross_products
+from fitter.fits.equipment import prepared_model
+from fitter.numerics.meshes import summed_cross_products
 from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera

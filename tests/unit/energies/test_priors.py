@@ -5,7 +5,7 @@ import csv
 import numpy as np
 import pytest
 
-from fitter.energies.priors import (
+from fitter.energies.shape_terms import (
     HEIGHT_CURVATURE,
     POPULATION_PRECISION,
     USUAL_HEIGHT_SD,
@@ -13,8 +13,8 @@ from fitter.energies.priors import (
     height_extrapolation,
     population_prior,
 )
-from fitter.fits.prepared_model import prepared_model
-from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+from fitter.fits.equipment import prepared_model
+from fitter.training.report.survey_comparison import load_moments, packaged_moments_path
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from tests.shared_data import SHARED_DATA, needs_shared

@@ -13,7 +13,7 @@ from fitter.energies.stance import (
     stance_rows,
     stance_vectors,
 )
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.training.articulation.parts import PART_NAMES, part_index

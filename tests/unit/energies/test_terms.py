@@ -10,29 +10,27 @@ from scipy.spatial import KDTree
 from fitter.body.model import SparseRows, regress
 from fitter.body.scape import increment
 from fitter.energies._picture_kernels import nearest_within
-from fitter.energies.clicks import ClickEvidence, click_energy, click_evidence, click_rows
-from fitter.energies.edges import edge_energy, edge_rows
+from fitter.energies.edges import EdgeCostMap, edge_energy, edge_rows
+from fitter.energies.landmarks import ClickEvidence, click_energy, click_evidence, click_rows
 from fitter.energies.penetration import (
     PenetrationProxy,
     penetration_energy,
     penetration_rows,
     sphere_positions,
 )
+from fitter.energies.rows import geman_mcclure
 from fitter.energies.scales import scales_at
 from fitter.energies.shading import (
+    IntensityMap,
     ShadingEvidence,
     shading_energy,
     shading_rows,
     usable_vertices,
 )
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap, silhouette_rows
-from fitter.evidence.edge_cost import EdgeCostMap
-from fitter.evidence.intensity import IntensityMap
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.prepared_model import prepared_model
-from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.normals import add_normal_derivative
-from fitter.numerics.robust import geman_mcclure
+from fitter.fits.equipment import prepared_model
+from fitter.numerics.meshes import add_normal_derivative, mesh_topology
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges

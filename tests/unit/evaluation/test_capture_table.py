@@ -5,7 +5,7 @@ import pytest
 
 from fitter.capture.finding import Code
 from fitter.fits.capture_check import CaptureQuestion
-from fitter.observation.colour import linear_from_display
+from fitter.observation.pixels import linear_from_display
 from tests.evaluation.capture_forms import (
     Source,
     cropped,

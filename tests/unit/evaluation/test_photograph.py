@@ -3,8 +3,8 @@ import io
 import numpy as np
 from PIL import Image as PillowImage
 
-from fitter.observation.colour import linear_from_display
-from fitter.observation.exif import read_exif
+from fitter.observation.picture_files import read_exif
+from fitter.observation.pixels import linear_from_display
 from tests.evaluation.photograph import photograph
 
 

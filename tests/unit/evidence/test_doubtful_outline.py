@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from fitter.energies.edges import EdgeCostMap
 from fitter.evidence.doubtful_outline import AROUND_M, OFF_M, THING_M, doubtful_outline
-from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, SKIN, WALL, WIDTH, boxes
 

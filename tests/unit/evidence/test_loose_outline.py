@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitter.evidence.correspondence_lines import correspondence_lines
+from fitter.energies.correspondence_lines import correspondence_lines
 from fitter.evidence.loose_outline import FARTHEST_M, LooseOutline
 from tests.unit.evidence.drawn_pictures import (
     HEIGHT,

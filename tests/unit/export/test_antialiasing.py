@@ -5,7 +5,7 @@ import pytest
 
 from fitter.export.antialiasing import PAPER, SAMPLES, render_finely, vertex_pictures
 from fitter.export.display import finer, to_levels
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from fitter.render.rasterizer import render, shade_image
 from tests.unit.export.plain_pictures import block_means
 from tests.unit.export.results import CAMERA

@@ -16,8 +16,8 @@ from fitter.export.pictures import (
     overlay_picture,
     trimap_levels,
 )
-from fitter.numerics.mesh_topology import mesh_topology
-from fitter.observation.colour import display_from_linear
+from fitter.numerics.meshes import mesh_topology
+from fitter.observation.pixels import display_from_linear
 from fitter.render.rasterizer import render
 from fitter.segmentation.trimap import TrimapLabel
 from tests.unit.body.synthetic_model import bar_model

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fitter.capture.finding import Code, Finding
+from fitter.fits.equipment import prepared_model
 from fitter.fits.error_widening import HARM, widened_covariance
-from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.joint_measurements import joint_measurements
 from fitter.vocabulary.choices import Gender

@@ -7,8 +7,8 @@ from fitter.body.model import regress
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import shape_for_height
 from fitter.errors import InvalidInputError
+from fitter.fits.equipment import prepared_model
 from fitter.fits.initial_body import initial_body, limb_readings
-from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import PoseHypothesis

@@ -6,12 +6,12 @@ import cv2
 import numpy as np
 import pytest
 
+from fitter.energies.edges import edge_cost_map
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.errors import InvalidInputError
-from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.silhouette_evidence import signed_distance
+from fitter.fits.equipment import prepared_model
 from fitter.fits.pipeline import fit
-from fitter.fits.prepared_model import prepared_model
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
 from fitter.request import Choices, FitRequest, KnownMeasurement, Paper

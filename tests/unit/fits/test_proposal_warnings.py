@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from fitter.fits.proposal_warnings import proposal_warnings
+from fitter.fits.proposal import proposal_warnings
 from fitter.request import Click
 
 FRONT = {

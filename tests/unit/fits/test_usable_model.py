@@ -4,7 +4,7 @@ import pytest
 
 from fitter.body.storage import packaged_model_path
 from fitter.errors import ModelFileError
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.fits.usable_model import NEEDED_PARTS, needed_landmarks
 from fitter.vocabulary.choices import Gender
 from tests.changed_models import packaged, save, without

@@ -1,11 +1,21 @@
-import json
+from pathlib import Path
 
 import pytest
 
-from fitter.errors import DefinitionError
-from fitter.measurement.definition_file import DEFINITIONS_PATH, load_definitions
-from fitter.measurement.definitions import Agreement, Girth, check_against_model
-from tests.unit.body.synthetic_model import bar_model
+from fitter.fits.usable_model import NEEDED_PARTS
+from fitter.measurement.definitions import (
+    JOINT_PREFIX,
+    Agreement,
+    Contour,
+    Extent,
+    Girth,
+    Orientation,
+    load_definitions,
+    needed_points,
+    parts_of,
+)
+from fitter.measurement.document import ATLAS_FOLDER, measurements_page, sheet_name
+from fitter.vocabulary.measurements import CHIEF, Group, group_of
 
 REQUIRED = {
     "stature",
@@ -26,21 +36,6 @@ REQUIRED = {
 }
 
 
-@pytest.fixture
-def document():
-    return json.loads(DEFINITIONS_PATH.read_text(encoding="utf-8"))
-
-
-def load_changed(document, tmp_path):
-    path = tmp_path / "definitions.json"
-    path.write_text(json.dumps(document), encoding="utf-8")
-    return load_definitions(path)
-
-
-def girth_entry(document):
-    return next(entry for entry in document["measurements"] if entry["kind"] == "girth")
-
-
 def test_every_measurement_promised_is_defined_with_its_source():
     definitions = load_definitions()
     assert {d.about.name for d in definitions} >= REQUIRED
@@ -58,68 +53,86 @@ def test_every_measurement_says_how_it_stands_to_the_surveys():
         assert bool(survey.fields) == (survey.agreement is not Agreement.ABSENT)
 
 
-def test_fields_of_a_survey_that_does_not_take_the_measurement_are_refused(document, tmp_path):
-    entry = girth_entry(document)
-    entry["survey"]["agreement"] = "absent"
-    with pytest.raises(DefinitionError, match=f"{entry['name']}: survey: fields is"):
-        load_changed(document, tmp_path)
+def test_every_measurement_has_a_name_of_its_own():
+    names = [definition.about.name for definition in load_definitions()]
+    assert len(set(names)) == len(names)
 
 
-def test_a_missing_field_is_named_with_its_measurement(document, tmp_path):
-    entry = girth_entry(document)
-    del entry["parts"]
-    with pytest.raises(DefinitionError, match=f"{entry['name']}: parts is missing"):
-        load_changed(document, tmp_path)
+@pytest.mark.parametrize("definition", load_definitions(), ids=lambda each: each.about.name)
+def test_what_a_definition_names_exists_and_fits_together(definition):
+    assert set(parts_of(definition)) <= set(NEEDED_PARTS)
+    assert all(
+        point.partition(":")[2] in NEEDED_PARTS
+        for point in needed_points(definition)
+        if point.startswith(JOINT_PREFIX)
+    )
+    match definition:
+        case Girth():
+            low, high = definition.fractions
+            assert low <= high
+        case Extent():
+            assert definition.girth.orientation is Orientation.LEVEL
+        case Contour():
+            assert len(definition.sides) == len(definition.path) - 1
 
 
 @pytest.mark.parametrize(
-    ("field", "value", "fault"),
+    ("name", "group"),
     [
-        ("fractions", [0.6, 0.2], "runs from 0.6 down to 0.2"),
-        ("fractions", [0.6], "not two numbers"),
-        ("selection", "median", "not one of largest, smallest"),
-        ("parts", [], "not a list of names"),
-        ("around_axis", 1, "not of type bool"),
-        ("start", "navel", "not of type list"),
-        ("kind", "girthy", "kind 'girthy' is not known"),
-        ("unit", "inch", "not one of cm, kg"),
+        ("stature", Group.OVERALL),
+        ("weight", Group.OVERALL),
+        ("waist_girth_navel", Group.GIRTHS),
+        ("trunk_girth", Group.GIRTHS),
+        ("head_height", Group.HEIGHTS),
+        ("shoulder_breadth", Group.BREADTHS),
+        ("chest_depth", Group.BREADTHS),
+        ("inseam", Group.LENGTHS),
+        ("back_shoulder_width", Group.LENGTHS),
     ],
 )
-def test_a_wrong_value_is_named(document, tmp_path, field, value, fault):
-    girth_entry(document)[field] = value
-    with pytest.raises(DefinitionError, match=fault):
-        load_changed(document, tmp_path)
+def test_a_name_tells_its_group(name, group):
+    assert group_of(name) is group
 
 
-def test_a_measurement_defined_twice_is_refused(document, tmp_path):
-    document["measurements"].append(document["measurements"][0])
-    with pytest.raises(DefinitionError, match="is defined 2 times"):
-        load_changed(document, tmp_path)
+def test_definitions_come_group_by_group():
+    groups = [group_of(definition.about.name) for definition in load_definitions()]
+    assert groups == sorted(groups, key=list(Group).index)
 
 
-def test_another_format_version_is_refused(document, tmp_path):
-    document["format_version"] = 99
-    with pytest.raises(DefinitionError, match="format_version"):
-        load_changed(document, tmp_path)
+def test_what_is_shown_first_is_measured():
+    names = [definition.about.name for definition in load_definitions()]
+    assert set(CHIEF) <= set(names)
+    assert len(set(CHIEF)) == len(CHIEF)
 
 
-def test_a_file_that_is_no_json_is_refused(tmp_path):
-    path = tmp_path / "definitions.json"
-    path.write_text("{", encoding="utf-8")
-    with pytest.raises(DefinitionError, match="cannot be read as JSON"):
-        load_definitions(path)
+PAGE = Path(__file__).parents[3] / "MEASUREMENTS.md"
 
 
-def test_a_model_without_the_landmark_is_refused_by_name():
-    with pytest.raises(
-        DefinitionError, match="head_girth: the female body model has no point left_eye"
-    ):
-        check_against_model(load_definitions(), bar_model())
+def test_the_page_of_measurements_is_the_one_the_definitions_make():
+    assert PAGE.read_text(encoding="utf-8") == measurements_page(load_definitions())
 
 
-def test_a_model_without_the_part_is_refused_by_name():
-    calf = next(
-        d for d in load_definitions() if isinstance(d, Girth) and d.about.name == "calf_girth"
-    )
-    with pytest.raises(DefinitionError, match=r"calf_girth: .* has no point joint:right_shin"):
-        check_against_model([calf], bar_model())
+def test_every_measurement_has_one_row_with_four_cells():
+    definitions = load_definitions()
+    rows = [line for line in measurements_page(definitions).splitlines() if line.startswith("| `")]
+    assert len(rows) == len(definitions)
+    for row, definition in zip(rows, definitions, strict=True):
+        assert row.startswith(f"| `{definition.about.name}`")
+        assert row.count(" | ") == 3
+
+
+def test_a_measurement_stands_with_its_clause_and_its_field():
+    (row,) = [
+        line
+        for line in measurements_page(load_definitions()).splitlines()
+        if line.startswith("| `neck_girth`")
+    ]
+    assert "Neck girth (5.3.2)" in row
+    assert "`neckcircumference`" in row
+
+
+def test_every_group_has_its_picture():
+    page = measurements_page(load_definitions())
+    for group in Group:
+        assert f"({ATLAS_FOLDER}/{sheet_name(group)})" in page
+        assert (PAGE.parent / ATLAS_FOLDER / sheet_name(group)).is_file()

@@ -21,9 +21,9 @@ from fitter.measurement.plane_cut import Plane, closed_length, plane_section
 from fitter.measurement.taking import girth_axis, girths_of
 from fitter.measurement.tape import girth_at_m, girth_tape
 from fitter.population.body_estimate import estimate_body
-from fitter.population.measured_population import measured_population
+from fitter.population.conditional_shape import measured_population
 from fitter.request import KnownMeasurement
-from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+from fitter.training.report.survey_comparison import load_moments, packaged_moments_path
 from tests.unit.measurement.plain_hull import hull_of, in_plane
 from tests.unit.measurement.plain_tape import plain_tape
 

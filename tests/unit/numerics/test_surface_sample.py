@@ -6,8 +6,7 @@ import trimesh
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
-from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.meshes import vertex_areas
+from fitter.numerics.meshes import mesh_topology, vertex_areas
 from fitter.numerics.surface_sample import SurfaceSample, surface_sample
 
 SPACING = 0.35

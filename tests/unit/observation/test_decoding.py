@@ -12,8 +12,8 @@ from PIL import Image as PillowImage
 from PIL import ImageCms
 
 from fitter.errors import InvalidInputError
-from fitter.observation.colour import display_from_linear
 from fitter.observation.decoding import DecodedPicture, decode_coverage, decode_picture
+from fitter.observation.pixels import display_from_linear
 from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, noise, smooth
 
 RGB = PillowImage.fromarray(noise())

@@ -7,7 +7,7 @@ from PIL import Image as PillowImage
 from PIL.TiffImagePlugin import IFDRational
 
 from fitter.observation.decoding import decode_picture
-from fitter.observation.exif import ExifTags, read_exif
+from fitter.observation.picture_files import ExifTags, read_exif
 from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, smooth
 
 UPRIGHT = smooth()

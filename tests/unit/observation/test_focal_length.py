@@ -3,8 +3,8 @@ from typing import Any
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import FocalLength, focal_length
+from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.unit.observation.pictures import view
 

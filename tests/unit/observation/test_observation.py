@@ -5,11 +5,13 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from fitter.errors import InvalidInputError
-from fitter.observation.colour import display_from_linear, linear_from_display, luminance_of
-from fitter.observation.resampling import (
+from fitter.observation.pixels import (
     WORKING_PIXELS,
     WorkingSize,
+    display_from_linear,
+    linear_from_display,
     linear_working_picture,
+    luminance_of,
     working_coverage,
     working_size,
 )

@@ -12,20 +12,18 @@ from fitter.arrays import Image
 from fitter.body.model import regress
 from fitter.body.pose_prior import mean_pose
 from fitter.body.scape import increment
-from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes
-from fitter.energies.clicks import click_evidence
+from fitter.energies.edges import edge_cost_map
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Candidate, Objective
-from fitter.energies.picture import PictureEvidence
-from fitter.energies.priors import population_prior
+from fitter.energies.landmarks import click_evidence
+from fitter.energies.objective import Candidate, JointObjective, Objective
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
-from fitter.evidence.edge_cost import edge_cost_map
-from fitter.evidence.intensity import IntensityMap, intensity_map
+from fitter.energies.shading import IntensityMap, intensity_map
+from fitter.energies.shape_terms import NOTHING_KNOWN, KnownAttributes, population_prior
+from fitter.energies.terms import PictureEvidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.numerics.rotations import compose
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from fitter.optimizer.alternation import (
     SMOOTHNESS_SCHEDULE,
     ShadedFit,

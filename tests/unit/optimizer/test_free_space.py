@@ -5,21 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.attributes import (
+from fitter.energies.objective import JointCandidate, JointObjective
+from fitter.energies.shape_terms import (
     NOTHING_KNOWN,
     attribute_energy,
     attribute_residuals,
     attribute_slopes,
+    height_extrapolation,
 )
-from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.energies.priors import height_extrapolation
 from fitter.errors import NumericalError
-from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.optimizer.free_space import HELD_WITHIN, free_space, held_shape
-from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.joint_equations import joint_equations
-from fitter.optimizer.simplex import minimize_simplex
+from fitter.optimizer.search import minimize_gauss_newton, minimize_simplex
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson, known_person

@@ -6,13 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.attributes import NOTHING_KNOWN, Attributes, KnownAttributes
-from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.energies.priors import population_prior
+from fitter.energies.objective import JointCandidate, JointObjective
+from fitter.energies.shape_terms import NOTHING_KNOWN, Attributes, KnownAttributes, population_prior
 from fitter.optimizer.free_space import free_space
-from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.joint_equations import JointEquations, joint_equations
 from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.search import minimize_gauss_newton
 from fitter.optimizer.uncertainty import body_information, certainty, shape_covariance
 from tests.unit.optimizer.rendered_scene import RenderedScene, of_person, rendered_scene
 

@@ -15,10 +15,10 @@ from fitter.optimizer.normal_equations import (
     RowsWithNuisance,
     normal_equations,
     nuisance_covariance,
+    position_row_jacobian,
     support_points,
     without_nuisance,
 )
-from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.optimizer.search import with_lines_about
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.render.rasterizer import render

@@ -6,7 +6,7 @@ import trimesh
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.meshes import mesh_topology
 from fitter.numerics.surface_sample import elimination_order
 from fitter.optimizer.reflectance_solve import PairFactor
 

@@ -5,13 +5,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from fitter.energies.priors import POPULATION_PRECISION
 from fitter.energies.shading import usable_vertices
+from fitter.energies.shape_terms import POPULATION_PRECISION
 from fitter.optimizer.free_space import moved
-from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.simplex import minimize_simplex
+from fitter.optimizer.search import Minimum, minimize_gauss_newton, minimize_simplex
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.render.reflectance import direction_to_light, shade
 from fitter.request import LightGuess

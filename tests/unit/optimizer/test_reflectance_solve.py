@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.meshes import mesh_topology
 from fitter.numerics.surface_sample import elimination_order
 from fitter.optimizer.reflectance_solve import (
     ReflectanceFields,

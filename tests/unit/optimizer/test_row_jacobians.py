@@ -5,7 +5,7 @@ import pytest
 
 from fitter.body.tangent import linearise
 from fitter.energies.rows import PositionRows, ShadingRows
-from fitter.optimizer.row_jacobians import position_row_jacobian, scatter, shading_row_jacobian
+from fitter.optimizer.normal_equations import position_row_jacobian, scatter, shading_row_jacobian
 from tests.unit.body.plain_tangent import attached_vertices, direction_jacobian, point_jacobian
 from tests.unit.numerics.plain_normals import normal_change
 from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene

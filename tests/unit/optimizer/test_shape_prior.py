@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.attributes import NOTHING_KNOWN
-from fitter.energies.priors import ShapePrior, population_prior
+from fitter.energies.shape_terms import NOTHING_KNOWN, ShapePrior, population_prior
 from fitter.optimizer.free_space import free_space
-from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.joint_equations import joint_equations
-from fitter.optimizer.simplex import minimize_simplex
+from fitter.optimizer.search import minimize_gauss_newton, minimize_simplex
 from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
 
 

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from fitter.energies import objective as objectives
-from fitter.energies.picture import SeenBody
 from fitter.energies.rows import Nuisance, PositionRows, Support
-from fitter.energies.terms import Term, terms_of
+from fitter.energies.terms import SeenBody, Term, terms_of
 from fitter.optimizer.free_space import moved
 from fitter.optimizer.normal_equations import normal_equations
 from tests.unit.optimizer.rendered_scene import rendered_scene

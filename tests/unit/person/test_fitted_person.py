@@ -6,8 +6,8 @@ from zipfile import ZIP_STORED
 import numpy as np
 import pytest
 
+from fitter.body.storage import write_arrays
 from fitter.errors import InvalidInputError
-from fitter.numerics.array_archive import write_arrays
 from fitter.parameters import CameraTilt
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.person.person_checks import MAX_BYTES

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.priors import POPULATION_PRECISION
+from fitter.energies.shape_terms import POPULATION_PRECISION
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
-from fitter.energies.priors import height_extrapolation
+from fitter.energies.shape_terms import height_extrapolation
 from fitter.errors import InvalidInputError
-from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measurement_values
 from fitter.population.body_estimate import BodyEstimate, estimate_body
+from fitter.population.conditional_shape import MeasuredPopulation
 from fitter.population.known import conditioned_population
-from fitter.population.measured_population import MeasuredPopulation
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE

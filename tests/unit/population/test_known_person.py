@@ -5,7 +5,7 @@ import pytest
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
 from fitter.errors import InvalidInputError
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.observation.subject import MEAN_HEIGHT_M, check_person
 from fitter.population.body_estimate import estimate_body

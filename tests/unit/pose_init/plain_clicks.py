@@ -8,7 +8,7 @@ from jaxtyping import Bool, Float
 from fitter.body.model import descendants
 from fitter.body.pose_prior import prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
-from fitter.numerics.robust import huber, huber_weights
+from fitter.energies.rows import huber, huber_weights
 from fitter.numerics.rotations import rotation_matrices
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,

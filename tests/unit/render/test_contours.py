@@ -3,7 +3,7 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.meshes import mesh_topology
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render

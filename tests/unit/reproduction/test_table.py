@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.observation.decoding import decode_picture
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render

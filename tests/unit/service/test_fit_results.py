@@ -10,7 +10,7 @@ from api_schemas import results as wire
 from fitter import request as fitter_request
 from fitter import result as fitter_result
 from fitter.capture.finding import Code, Finding
-from fitter.measurement.quantity import Measurement
+from fitter.measurement.definitions import Measurement
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape

@@ -11,8 +11,8 @@ from fitter.training.articulation.parts import (
     mirrored_part,
     part_index,
 )
+from fitter.training.articulation.rig import blend_linear
 from fitter.training.articulation.rigged_bodies import RegisteredBodies
-from fitter.training.articulation.skinning import blend_linear
 from fitter.training.makehuman.meshes import BaseMesh
 
 SPHERE = trimesh.creation.icosphere(subdivisions=3)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.training.surveys.civilians import (
+from fitter.training.surveys.survey import (
     AGES,
     BMI_RANGE,
     draw_civilian,

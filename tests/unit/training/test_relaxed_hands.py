@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fitter.training.articulation.relaxed_hands import (
+from fitter.training.articulation.rig import bone_heads
+from fitter.training.articulation.rigged_bodies import (
     FINGERS,
     JOINT_SHARES,
     RELAXED,
@@ -11,7 +12,6 @@ from fitter.training.articulation.relaxed_hands import (
     finger_rotations,
     with_curled_fingers,
 )
-from fitter.training.articulation.rig import bone_heads
 from tests.unit.training.makehuman_data import base_mesh, needs_makehuman
 from tests.unit.training.rigged_neutral import mesh, neutral_source, rig
 

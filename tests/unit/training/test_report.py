@@ -9,9 +9,8 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.measurement.anthropometry import measurement_values, measuring_body
 from fitter.training.assemble import assemble_body_model, height_attribute
-from fitter.training.build import subjects, write_model
+from fitter.training.build import Plan, provenance, residuals, subjects, write_model
 from fitter.training.people.population import Population
-from fitter.training.provenance import Plan, provenance, residuals
 from fitter.training.report.header_figures import measured_bodies, model_statistics
 from fitter.training.report.sections import Reported, disagreements, header_lines, summary_lines
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface

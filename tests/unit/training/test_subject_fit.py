@@ -5,7 +5,6 @@ import pytest
 
 from fitter.numerics.meshes import enclosed_volume
 from fitter.training.makehuman.body_space import average_traits, source_vertices
-from fitter.training.people._subject_kernels import volume_and_pull
 from fitter.training.people.population import (
     PACKAGED_PEOPLE,
     Workshop,
@@ -21,6 +20,7 @@ from fitter.training.people.subject_fit import (
     fit_subject,
     measured,
     place,
+    volume_and_pull,
 )
 from fitter.training.surveys.cuts import limb_cut, trunk_cut
 from fitter.training.surveys.survey_measurements import (

@@ -1,11 +1,13 @@
 import numpy as np
 import pytest
 
-from fitter.training.surveys.civilians import Civilian, load_civilians, packaged_civilians_path
 from fitter.training.surveys.survey import (
+    Civilian,
     draw_measurements,
+    load_civilians,
     load_statistics,
     on_the_model,
+    packaged_civilians_path,
     packaged_statistics_path,
     regression,
 )

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from fitter.export.formats import converted
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from tests.unit.export.formats.bodies import KNOWN, MICROMETRE, coloured, plain, textured
 
 

@@ -8,7 +8,7 @@ import pytest
 import stl.mesh
 
 from fitter.export.formats import converted
-from fitter.observation.colour import display_from_linear
+from fitter.observation.pixels import display_from_linear
 from tests.unit.export.formats.bodies import KNOWN, MICROMETRE, coloured, plain
 
 

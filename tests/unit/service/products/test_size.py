@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from api_schemas.products.documents import EXAMPLE, ChartError, columns_of, read_chart
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.equipment import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender
 from service.compute.tasks import UnusableInputError

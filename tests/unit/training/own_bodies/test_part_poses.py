@@ -5,7 +5,7 @@ from fitter.numerics.meshes import vertex_areas
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.training.articulation.parts import PART_NAMES
 from fitter.training.articulation.poses import random_pose
-from fitter.training.own_bodies.part_poses import best_rotation, refined_pose, solved_pose
+from fitter.training.own_bodies.pose_terms import best_rotation, refined_pose, solved_pose
 from tests.unit.training.own_bodies.bodies_folder import (
     packaged,
     posed_body,

@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import gradient_operator, part_laplacians
 from fitter.training.assemble import ShapeSpace
 from fitter.training.own_bodies.pose_terms import no_pose_term, transferred_pose_term
 from tests.unit.training.own_bodies.bodies_folder import packaged, template
