@@ -1,8 +1,8 @@
 """The application, its resources in its layers, and the server that runs it.
 
-Uvicorn limits neither how long the head of a request takes nor how many connections there are: the
-proxy in front of it does (``service/docs/operate/proxy.md``). The application limits what uvicorn
-hands it (:mod:`service.api.limits`).
+Uvicorn does not limit how long the head of a request takes: the proxy in front of it does
+(``service/docs/operate/proxy.md``). How many connections there are is limited by
+:mod:`service.process.listener`, what uvicorn hands the application by :mod:`service.api.limits`.
 """
 
 import asyncio
@@ -223,8 +223,10 @@ class ApiServer(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
-                # Whatever else is installed: only h11 keeps to the longest head.
+                # Whatever else is installed: only h11 keeps to the longest head, and only asyncio
+                # has the listener accept connections.
                 http="h11",
+                loop="asyncio",
                 h11_max_incomplete_event_size=HEAD_BYTES,
                 timeout_keep_alive=IDLE_S,
                 timeout_graceful_shutdown=GRACE_S,

@@ -1,11 +1,9 @@
 """``maquette serve``: the API in this process, a worker or estimators alone in another."""
 
 import argparse
-import errno
 import logging
 import os
 import signal
-import socket
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -18,9 +16,10 @@ from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
 from service.jobs.database import check_database, open_database, prepare_database
 from service.jobs.storage_identity import check_storage, take_storage
 from service.process.data_folder import open_disk, prepare_data_folder
+from service.process.listener import Listener, listen
 from service.process.supervisor import PYTHON, SupervisedProcess
 from service.process.work_folder import make_work_folder
-from service.settings import PREFIX, SettingError, Settings
+from service.settings import PREFIX, Settings
 from service.startup import UNUSABLE, UNUSABLE_SETTINGS, given, run_service
 
 LOG: Final = logging.getLogger(__name__)
@@ -71,38 +70,9 @@ def run(parsed: argparse.Namespace) -> int:
     return run_service("serve", work, options)
 
 
-def listen(settings: Settings) -> socket.socket:
-    """Bind the API's address; port 0 takes a free one.
-
-    Raises
-    ------
-    OSError
-        If something else is listening there.
-    SettingError
-        If it is impossible to listen on the address.
-    """
-    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
-    # With the protocol given explicitly, asyncio sends what is written at once: otherwise each
-    # response on a kept-alive connection would wait 40 ms for the acknowledgement of its headers.
-    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        listener.bind((settings.host, settings.port))
-    except OSError as error:
-        listener.close()
-        if error.errno == errno.EADDRINUSE:
-            raise
-        reason = (
-            f"it cannot be listened on port {settings.port} there ({error.strerror}); name an "
-            "address of this machine, and a port above 1023"
-        )
-        raise SettingError(reason, name="host", value=settings.host) from error
-    return listener
-
-
 def serve(
     settings: Settings,
-    listener: socket.socket,
+    listener: Listener,
     *,
     worker_command: Sequence[str] | None = WORKER_COMMAND,
     estimators_command: Sequence[str] = ESTIMATORS_COMMAND,

@@ -7,7 +7,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from service.commands.serve import listen, serve
+from service.commands.serve import serve
+from service.process.listener import listen
 from service.process.logs import configure_logging
 from service.settings import Settings
 
