@@ -122,7 +122,7 @@ $(STAMP): $(PACKAGES)
 	touch $(STAMP)
 
 $(PACKAGES): pyproject.toml service/version.py requirements.lock requirements-detector.txt
-	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
+	$(PYTHON) .ci/system.py
 	test -x $(VENV)/bin/python || $(PYTHON) -m venv $(VENV)
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements.lock
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps -r requirements-training.txt
