@@ -129,7 +129,7 @@ async def make_product(
     wait_s = preferred_wait_s(prefer)
     if wait_s > 0:
         look = partial(context.jobs.product, fit.id, asked)
-        product = await wait_for_end(context, product, look, wait_s=wait_s)
+        product = await wait_for_end(context.feed, product, look, wait_s=wait_s)
         response.headers["Preference-Applied"] = f"wait={wait_s}"
     response.headers["Location"] = product_path(fit.id, asked)
     if product.state in ACTIVE:
