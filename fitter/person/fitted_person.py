@@ -29,12 +29,14 @@ from jaxtyping import Float
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
-from fitter.body.storage import write_arrays
+from fitter.body.storage import read_arrays, write_arrays
+from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
-from fitter.person.person_checks import FORMAT_VERSION, checked_person, unusable_person
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Gender, LightKind
 from fitter.vocabulary.outcomes import StanceKind
+
+FORMAT_VERSION = 1
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -123,33 +125,25 @@ class FittedPerson:
 
     @classmethod
     def from_bytes(cls, content: bytes) -> "FittedPerson":
-        """Read and check the file.
+        """Read the file, whose archive tells whether it is damaged.
 
         Raises
         ------
         InvalidInputError
-            If it is damaged, of another format version, or holds values no fit gives.
+            If it is damaged, of another format version, or no person.
         """
-        header, arrays = checked_person(content)
-        focal_length, centre_x, centre_y, width, height = arrays["camera"].tolist()
-        return cls(
-            gender=Gender(str(header["gender"])),
-            model_checksum=str(header["model_checksum"]),
-            body=BodyParameters(
-                pose=arrays["pose"], translation=arrays["translation"], shape=arrays["shape"]
-            ),
-            camera=Camera(
-                focal_length_px=focal_length,
-                centre_x=centre_x,
-                centre_y=centre_y,
-                width=int(width),
-                height=int(height),
-            ),
-            light=_light(header["light"], arrays),
-            reflectance=_reflectance(arrays) if header["light"] is not None else None,
-            albedo_rgb=arrays.get("albedo_rgb"),
-            shape_covariance=arrays.get("shape_covariance"),
-            tilt=_tilt(arrays),
+        try:
+            arrays = read_arrays(io.BytesIO(content))
+            header = json.loads(arrays.pop("header").tobytes())
+            version = header["format_version"]
+            if version == FORMAT_VERSION:
+                return _person(header, arrays)
+        except Exception as error:
+            raise _unusable(
+                field="file", reason=f"The file is not a readable person ({error})"
+            ) from error
+        raise _unusable(
+            field="file", reason=f"The file's format version is {version}, not {FORMAT_VERSION}"
         )
 
 
@@ -162,12 +156,14 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
         If it is a different one: coefficients and vertices would mean something else.
     """
     if person.gender.value != model.gender:
-        raise unusable_person(
-            field="gender", reason=f"is {person.gender.value}, the body model's is {model.gender}"
+        raise _unusable(
+            field="gender",
+            reason=f"Gender is {person.gender.value}, the body model's is {model.gender}",
         )
     if person.model_checksum != model.checksum:
-        raise unusable_person(
-            field="model_checksum", reason="is that of another body model than the service has now"
+        raise _unusable(
+            field="model_checksum",
+            reason="It was fitted with another body model than the service has now",
         )
     m, n, p = len(model.mean_vertices), len(model.shape_basis), len(model.part_names)
     counts = {"pose": (len(person.body.pose), p), "shape": (len(person.body.shape), n)}
@@ -175,47 +171,59 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
         counts["albedo"] = (len(person.reflectance.albedo), m)
     for field, (found, expected) in counts.items():
         if found != expected:
-            raise unusable_person(
-                field=field, reason=f"has {found} rows, the body model wants {expected}"
+            raise _unusable(
+                field=field,
+                reason=f"{field.capitalize()} has {found} rows, the body model wants {expected}",
             )
 
 
-def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
-    if kind is None:
-        return None
-    azimuth, elevation, distance = arrays["light"].tolist()
-    light = Light(
-        kind=LightKind(str(kind)),
-        azimuth=azimuth,
-        elevation=elevation,
-        distance=distance,
-    )
-    infinite = light.kind is LightKind.DIRECTIONAL
-    if not distance > 0.0 or np.isinf(distance) != infinite:
-        wanted = "infinite" if infinite else "positive and finite"
-        raise unusable_person(
-            field="light", reason=f"is {distance} m away, expected {wanted} for a {kind} light"
+def _person(header: Mapping[str, str | None], arrays: Mapping[str, np.ndarray]) -> FittedPerson:
+    focal_length, centre_x, centre_y, width, height = arrays["camera"].tolist()
+    light = reflectance = tilt = None
+    if header["light"] is not None:
+        azimuth, elevation, distance = arrays["light"].tolist()
+        kind = LightKind(header["light"])
+        light = Light(kind=kind, azimuth=azimuth, elevation=elevation, distance=distance)
+        ambient, exponent = arrays["eq_1"].tolist()
+        reflectance = Reflectance(
+            albedo=arrays["albedo"],
+            specularity=arrays["specularity"],
+            ambient=ambient,
+            specular_exponent=exponent,
         )
-    return light
-
-
-def _tilt(arrays: Mapping[str, np.ndarray]) -> CameraTilt | None:
-    if "tilt" not in arrays:
-        return None
-    pitch, roll = arrays["tilt"].tolist()
-    return CameraTilt(
-        pitch=pitch,
-        roll=roll,
-        covariance=arrays["tilt_covariance"],
-        stances=dict(zip(StanceKind, arrays["stances"].tolist(), strict=True)),
+    if "tilt" in arrays:
+        pitch, roll = arrays["tilt"].tolist()
+        tilt = CameraTilt(
+            pitch=pitch,
+            roll=roll,
+            covariance=arrays["tilt_covariance"],
+            stances=dict(zip(StanceKind, arrays["stances"].tolist(), strict=True)),
+        )
+    return FittedPerson(
+        gender=Gender(header["gender"]),
+        model_checksum=str(header["model_checksum"]),
+        body=BodyParameters(
+            pose=arrays["pose"], translation=arrays["translation"], shape=arrays["shape"]
+        ),
+        camera=Camera(
+            focal_length_px=focal_length,
+            centre_x=centre_x,
+            centre_y=centre_y,
+            width=int(width),
+            height=int(height),
+        ),
+        light=light,
+        reflectance=reflectance,
+        albedo_rgb=arrays.get("albedo_rgb"),
+        shape_covariance=arrays.get("shape_covariance"),
+        tilt=tilt,
     )
 
 
-def _reflectance(arrays: Mapping[str, np.ndarray]) -> Reflectance:
-    ambient, exponent = arrays["eq_1"].tolist()
-    return Reflectance(
-        albedo=arrays["albedo"],
-        specularity=arrays["specularity"],
-        ambient=ambient,
-        specular_exponent=exponent,
+def _unusable(*, field: str, reason: str) -> InvalidInputError:
+    return InvalidInputError(
+        code="person-unusable",
+        field=f"person.{field}",
+        reason=f"{reason}.",
+        remedy="Fit the picture again and use the file person.npz of that fit as it is.",
     )

@@ -10,7 +10,6 @@ from fitter.body.storage import write_arrays
 from fitter.errors import InvalidInputError
 from fitter.parameters import CameraTilt
 from fitter.person.fitted_person import FittedPerson, require_model
-from fitter.person.person_checks import MAX_BYTES
 from fitter.vocabulary.outcomes import StanceKind
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.results import CAMERA, SUN, result_of
@@ -43,13 +42,6 @@ def packed(arrays: dict[str, np.ndarray]) -> bytes:
     stream = io.BytesIO()
     write_arrays(stream, arrays, compression=ZIP_STORED)
     return stream.getvalue()
-
-
-def with_header(**changes: object) -> bytes:
-    arrays = members(PEOPLE["coloured"])
-    header = json.loads(arrays["header"].tobytes()) | changes
-    encoded = json.dumps(header).encode()
-    return packed(arrays | {"header": np.frombuffer(encoded, dtype=np.uint8)})
 
 
 def refusal(content: bytes) -> InvalidInputError:
@@ -88,26 +80,6 @@ def test_every_number_comes_back_as_it_was(kind):
         np.testing.assert_array_equal(found.tilt.covariance, person.tilt.covariance)
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [
-        ("tilt_covariance", np.diag([1.0, -1.0])),
-        ("tilt_covariance", np.array([[1.0, 0.5], [0.0, 1.0]])),
-        ("stances", np.array([0.5, 0.5, 0.5])),
-        ("tilt", np.array([np.nan, 0.0])),
-    ],
-)
-def test_a_tilt_that_no_fit_gives_is_refused(field, value):
-    arrays = members(PEOPLE["tilt"])
-    assert refusal(packed(arrays | {field: value})).field == f"person.{field}"
-
-
-def test_a_tilt_without_its_covariance_is_refused():
-    arrays = members(PEOPLE["tilt"])
-    del arrays["tilt_covariance"]
-    assert refusal(packed(arrays)).field == "person.tilt_covariance"
-
-
 @pytest.mark.parametrize("kind", PEOPLE)
 def test_the_same_person_gives_the_same_bytes(kind):
     content = PEOPLE[kind].to_bytes()
@@ -127,80 +99,25 @@ def test_an_archive_of_pickles_is_refused():
     assert refusal(stream.getvalue()).field == "person.file"
 
 
-def test_an_archive_that_unpacks_to_more_than_a_body_is_refused_before_it_is_unpacked():
-    reason = refusal(packed({"pose": np.zeros(MAX_BYTES // 8 + 1)})).reason
-    assert str(MAX_BYTES) in reason
-
-
-@pytest.mark.parametrize(
-    ("field", "change"),
-    [
-        ("format_version", 2),
-        ("gender", "neutral"),
-        ("light", "spot"),
-        ("model_checksum", None),
-    ],
-)
+@pytest.mark.parametrize(("field", "change"), [("format_version", 2), ("gender", "neutral")])
 def test_a_header_that_means_something_else_is_refused(field, change):
-    assert refusal(with_header(**{field: change})).field == f"person.header.{field}"
-
-
-def test_a_missing_header_is_refused():
     arrays = members(PEOPLE["coloured"])
-    del arrays["header"]
-    assert refusal(packed(arrays)).field == "person.header"
+    header = json.loads(arrays["header"].tobytes()) | {field: change}
+    encoded = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    assert str(change) in refusal(packed(arrays | {"header": encoded})).reason
 
 
-@pytest.mark.parametrize(
-    "field", ["pose", "translation", "shape", "camera", "light", "eq_1", "albedo", "specularity"]
-)
+@pytest.mark.parametrize("field", ["header", "pose", "camera", "albedo"])
 def test_a_missing_field_is_named(field):
     arrays = members(PEOPLE["coloured"])
     del arrays[field]
-    assert refusal(packed(arrays)).field == f"person.{field}"
+    assert field in refusal(packed(arrays)).reason
 
 
-def test_a_field_that_belongs_to_no_person_is_named():
-    arrays = members(PEOPLE["without shading"])
-    assert refusal(packed(arrays | {"albedo": np.ones(3)})).field == "person.albedo"
-
-
-@pytest.mark.parametrize("field", sorted(members(PEOPLE["coloured"]).keys() - {"header"}))
-def test_another_shape_another_type_and_numbers_that_are_not_finite_are_refused(field):
-    arrays = members(PEOPLE["coloured"])
-    spoilt = arrays[field].copy()
-    spoilt.flat[0] = np.nan
-    for wrong in (arrays[field][None], arrays[field].astype(np.float32), spoilt):
-        assert refusal(packed(arrays | {field: wrong})).field == f"person.{field}"
-
-
-@pytest.mark.parametrize(
-    ("field", "place", "value"),
-    [
-        ("pose", 0, 7.0),
-        ("translation", 2, -1.0),
-        ("camera", 0, 0.0),
-        ("camera", 3, 480.5),
-        ("camera", 4, 0.0),
-        ("light", 2, 0.0),
-        ("light", 2, np.inf),
-        ("eq_1", 0, -0.1),
-        ("eq_1", 1, 0.5),
-        ("albedo", 3, -0.1),
-        ("albedo_rgb", 3, -0.1),
-    ],
-)
-def test_values_no_fit_gives_are_refused(field, place, value):
-    arrays = members(PEOPLE["coloured"])
-    changed = arrays[field].copy()
-    changed.flat[place] = value
-    assert refusal(packed(arrays | {field: changed})).field == f"person.{field}"
-
-
-def test_reflectance_of_another_mesh_is_refused():
-    arrays = members(PEOPLE["coloured"])
-    shorter = arrays | {"specularity": arrays["specularity"][1:]}
-    assert refusal(packed(shorter)).field == "person.specularity"
+def test_a_byte_that_is_another_is_noticed():
+    content = bytearray(PEOPLE["coloured"].to_bytes())
+    content[len(content) // 2] ^= 1
+    assert "CRC" in refusal(bytes(content)).reason
 
 
 def test_a_person_belongs_to_the_model_it_was_fitted_with():
