@@ -29,7 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.rig import Rig
+from fitter.applications.poses import Rig
 from fitter.arrays import Vector3
 from fitter.numerics.rotations import cross_products, unit_vectors
 

@@ -6,18 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitter.applications.animated_glb import morphed_glb, skinned_glb
+from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
 from fitter.applications.filmstrip import film, strip
-from fitter.applications.gltf_skin import skin_of
 from fitter.applications.motion import Motion, grounded, motion_of_cycle, moving_body, sliding_m
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.named_motions import NAMED_MOTIONS
+from fitter.applications.poses import Rig
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import Axis, retarget
-from fitter.applications.rig import Rig
 from fitter.body.scape import ScapeEvaluator
-from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import FitWarning
 

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Float32, Integer
 
-from fitter.applications.poses import Angles, angled_pose
-from fitter.applications.rig import Rig
+from fitter.applications.poses import Angles, Rig, angled_pose
 from fitter.arrays import Pose, Shape, Vector3
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator

@@ -21,8 +21,7 @@ from types import MappingProxyType
 import numpy as np
 
 from fitter.applications.motion import Cycle, Moment
-from fitter.applications.poses import NAMED_POSES, Angles
-from fitter.applications.rig import Rig
+from fitter.applications.poses import NAMED_POSES, Angles, Rig
 
 STANDARD_GRAVITY = 9.80665
 

@@ -14,7 +14,7 @@ from fitter.applications.alignment import Samples, alignments
 from fitter.applications.bvh import BvhFile
 from fitter.applications.motion import Motion
 from fitter.applications.motion_file import MotionFile
-from fitter.applications.rig import Rig
+from fitter.applications.poses import Rig
 from fitter.arrays import Vector3
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors, unit_vectors
 from fitter.remarks import FitWarning

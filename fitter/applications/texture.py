@@ -13,13 +13,14 @@ import numpy as np
 from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.both_sides import BothSides, extend_light
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
-from fitter.applications.look_confidence import (
+from fitter.applications.picture_look import (
     BELIEVED,
+    BothSides,
     Look,
     at_vertices,
     distrust_hands,
+    extend_light,
     face_to_leave_out,
     limit_to_shown,
 )

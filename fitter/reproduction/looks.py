@@ -8,15 +8,14 @@ import numpy as np
 from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
-from fitter.applications.poses import named_pose
-from fitter.applications.rig import rig_of
+from fitter.applications.poses import named_pose, rig_of
 from fitter.applications.texture import linear_picture, picture_texture
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.shape_space import height_of_shape
-from fitter.export.body_texture import BodyTexture
 from fitter.export.bundle import reflectance_pictures
 from fitter.export.display import finer, to_levels
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.export.pictures import overlay_picture
 from fitter.export.views import BodyView, before_onlooker, coloured_body, middle_of, preview
 from fitter.fits.equipment import prepared_model

@@ -14,7 +14,7 @@ import numpy as np
 
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
-from fitter.applications.rig import rig_of
+from fitter.applications.poses import rig_of
 from fitter.arrays import Vertices
 from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt

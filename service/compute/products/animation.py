@@ -10,7 +10,7 @@ from fitter.applications.animation import (
     motion_of_name,
 )
 from fitter.applications.motion_file import read_motion
-from fitter.applications.rig import Rig, rig_of
+from fitter.applications.poses import Rig, rig_of
 from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.compute.products.pictured_body import texture_files, texture_for
 from service.jobs.inputs import CLIP

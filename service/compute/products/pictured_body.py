@@ -9,7 +9,7 @@ from api_schemas.products.base import BodyColours
 from fitter.applications.texture import Texture, albedo_texture, linear_picture, picture_texture
 from fitter.arrays import Mask
 from fitter.errors import InvalidInputError
-from fitter.export.body_texture import BodyTexture
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.observation.decoding import decode_coverage, decode_picture
 from service.compute.products.finished_fit import FinishedFit
 from service.jobs.inputs import IMAGE, SEGMENTATION, of_view

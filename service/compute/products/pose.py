@@ -4,14 +4,13 @@ import numpy as np
 
 from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import NamedPose, PoseOptions, PoseResult
-from fitter.applications.poses import named_pose, spelled_pose
-from fitter.applications.rig import Rig, rig_of
+from fitter.applications.poses import Rig, named_pose, rig_of, spelled_pose
 from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
-from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
 from fitter.export.glb import Frame
 from fitter.export.gltf import plain_glb
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.export.views import BodyView, preview
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson

@@ -2,8 +2,9 @@
 
 from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import TextureOptions, TextureResult
-from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.export.display import png
+from fitter.export.gltf import textured_glb
+from fitter.export.gltf_mesh import BodyTexture
 from service.compute.products.finished_fit import FinishedFit, Made, Report
 from service.compute.products.pictured_body import picture_on
 
@@ -13,7 +14,7 @@ def make(fit: FinishedFit, options: TextureOptions, report: Report) -> Made[Text
     is_albedo = options.colours is BodyColours.ALBEDO
     laid = picture_on(fit, without_light=is_albedo, size=options.size)
     report(0.8)
-    texture = png(laid.levels)
+    texture, model = png(laid.levels), fit.operators.model
     shares = {"seen_share": laid.seen_share, "mirrored_share": laid.mirrored_share}
     return Made(
         result=TextureResult(
@@ -21,12 +22,11 @@ def make(fit: FinishedFit, options: TextureOptions, report: Report) -> Made[Text
         ),
         files={
             "body_textured.glb": textured_glb(
-                in_file_axes(fit.operators.evaluator.vertices(fit.person.body)),
-                fit.operators.model,
-                texture,
+                fit.operators.evaluator.vertices(fit.person.body),
+                model,
+                BodyTexture.of(model, texture, media_type="image/png", is_lit=not is_albedo),
                 person=fit.person,
                 colour_scale=laid.scale,
-                is_albedo=is_albedo,
                 extras={"colours": options.colours.value, **shares},
             ),
             "texture.png": texture,

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from fitter.applications.rig import Rig, rig_of
+from fitter.applications.poses import Rig, rig_of
 from fitter.arrays import Pose, Shape, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator

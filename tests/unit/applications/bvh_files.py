@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fitter.applications.rig import Rig
+from fitter.applications.poses import Rig
 
 CHILDREN_FIRST = "ZXY"
 

@@ -7,14 +7,13 @@ import pytest
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from fitter.applications.animated_glb import morphed_glb, quaternions, skinned_glb
+from fitter.applications.animated_glb import morphed_glb, quaternions, skin_of, skinned_glb
 from fitter.applications.animation import (
     MOST_FRAMES,
     animate,
     motion_of_clip,
     motion_of_name,
 )
-from fitter.applications.gltf_skin import skin_of
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body, unturned
 from fitter.applications.motion_file import read_motion
 from fitter.applications.named_motions import stride_of

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fitter.applications.atlas import atlas_of
-from fitter.applications.both_sides import FORGOTTEN_M
+from fitter.applications.picture_look import FORGOTTEN_M
 from fitter.applications.picture_surface import SurfacePoints
 from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.surface_field import extend_values

@@ -9,7 +9,7 @@ from fitter.applications.motion import (
     sole_vertices,
 )
 from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, STANDARD_GRAVITY, least_jerk
-from fitter.applications.rig import beyond_limits
+from fitter.applications.poses import beyond_limits
 from fitter.numerics.rotations import rotation_matrices
 from tests.unit.applications.bodies import packaged
 

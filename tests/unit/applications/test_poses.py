@@ -5,11 +5,11 @@ from fitter.applications.poses import (
     NAMED_POSES,
     Angles,
     angled_pose,
+    beyond_limits,
     named_pose,
     shortest_rotation,
     spelled_pose,
 )
-from fitter.applications.rig import beyond_limits
 from fitter.body.model import global_rotations, posed_joints, regress
 from fitter.errors import InvalidInputError
 from fitter.numerics.rotations import rotation_matrices

@@ -14,9 +14,11 @@ from fitter.applications.texture import (
     linear_picture,
     picture_texture,
 )
-from fitter.applications.textured_glb import in_file_axes, textured_glb
+from fitter.body.scape import CAMERA_AXES
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
+from fitter.export.gltf import textured_glb
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.observation.pixels import linear_from_display
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
@@ -219,16 +221,17 @@ def test_the_file_holds_the_body_its_texture_and_its_light(sitter, texture, with
     vertices = sitter.evaluator.vertices(sitter.person.body)
     picture = png(texture.levels)
     content = textured_glb(
-        in_file_axes(vertices),
+        vertices,
         model,
-        picture,
+        BodyTexture.of(model, picture, media_type="image/png", is_lit=not with_light),
         person=sitter.person,
-        is_albedo=with_light,
         extras={"seen_share": texture.seen_share},
     )
     glb = read_glb(content)
     owners = glb.attribute("_VERTEX").astype(int)
-    np.testing.assert_allclose(glb.attribute("POSITION"), in_file_axes(vertices)[owners], atol=1e-6)
+    np.testing.assert_allclose(
+        glb.attribute("POSITION"), (vertices * CAMERA_AXES)[owners], atol=1e-6
+    )
     primitive = glb.document["meshes"][0]["primitives"][0]
     indices = glb.accessor(primitive["indices"]).reshape(-1, 3)
     np.testing.assert_array_equal(owners[indices], model.triangles)

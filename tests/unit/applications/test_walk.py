@@ -10,8 +10,7 @@ from fitter.applications.motion import (
     sole_vertices,
 )
 from fitter.applications.named_motions import stride_angles, stride_of
-from fitter.applications.poses import named_pose
-from fitter.applications.rig import beyond_limits
+from fitter.applications.poses import beyond_limits, named_pose
 from tests.unit.applications.bodies import packaged
 
 WINTER_SPEED_M_S = (0.9, 1.7)

@@ -6,9 +6,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from fitter.export.gltf import body_canonical_glb, body_posed_glb, quaternion_from_z_to
 from fitter.export.gltf_mesh import LIGHTEST
-from fitter.export.gltf_scene import quaternion_from_z_to
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_frame
 from fitter.vocabulary.outcomes import StanceKind

@@ -6,12 +6,12 @@ from functools import cache
 import cv2
 import numpy as np
 
-from fitter.applications.textured_glb import textured_glb
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import png
 from fitter.export.glb import Frame
-from fitter.export.gltf import body_posed_glb, plain_glb
+from fitter.export.gltf import body_posed_glb, plain_glb, textured_glb
+from fitter.export.gltf_mesh import BodyTexture
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import Gender
@@ -67,8 +67,11 @@ def textured() -> Known:
     model = packaged("female").model
     levels = np.random.default_rng(5).integers(0, 256, (16, 16, 3)).astype(np.uint8)
     picture = png(cv2.resize(levels, (64, 64)))
+    texture = BodyTexture.of(model, picture, media_type="image/png", is_lit=True)
     return Known(
-        glb=textured_glb(model.mean_vertices, model, picture, person=_person(model), extras={}),
+        glb=textured_glb(
+            model.mean_vertices * CAMERA_AXES, model, texture, person=_person(model), extras={}
+        ),
         vertices=model.mean_vertices,
         triangles=model.triangles,
         texels=model.uv,

@@ -6,9 +6,7 @@ import sys
 
 import numpy as np
 
-from fitter.export.formats import FORMATS, converted
-from fitter.export.formats.conversion import obj_file
-from fitter.export.formats.shown_body import ShownBody, Texture
+from fitter.export.formats import FORMATS, ShownBody, Texture, converted, obj_file
 from service.representation.formats import MESH_FORMATS, MTL, WRITER_VERSION
 from tests.unit.export.formats.bodies import coloured, textured
 

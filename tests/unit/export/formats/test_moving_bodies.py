@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from fitter.applications.animated_glb import morphed_glb, skinned_glb
-from fitter.applications.gltf_skin import skin_of
+from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
 from fitter.applications.principal_frames import principal_frames

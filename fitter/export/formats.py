@@ -1,16 +1,29 @@
-"""A body's surface and its looks, of which all other formats are written."""
+"""The service's GLB files as OBJ, PLY and STL: bytes in, bytes out, the same for the same.
+
+Vertices and triangles are the body model's, in its order, metres, y up, to a micrometre; an
+animation is shown as it begins. OBJ is written directly: a vertex and what it shows of a texture
+are counted apart, so that the seams of the texture leave the vertices alone; trimesh writes one
+count for both. Colours per vertex are a widespread extension: red, green and blue as displayed,
+after the coordinates.
+"""
 
 import json
 import struct
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from jaxtyping import Float, Integer
 from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Normals, Triangles, Vector3, Vertices
+from fitter.export.display import to_levels
 from fitter.export.gltf_mesh import unit_normals
+from fitter.observation.pixels import display_from_linear
+
+if TYPE_CHECKING:
+    import trimesh
 
 _HEADER_BYTES = 12
 _CHUNK_HEADER_BYTES = 8
@@ -219,3 +232,118 @@ def _own_place(node: dict[str, Any]) -> Float[np.ndarray, "4 4"]:
         place[:3, :3] = Rotation.from_quat(node["rotation"]).as_matrix()
     place[:3, 3] = node.get("translation", 0.0)
     return place
+
+
+MATERIAL = "skin"
+
+
+def obj_file(body: ShownBody) -> bytes:
+    """The body as text; a textured one refers to its material file."""
+    columns = body.vertices
+    if body.colours is not None:
+        columns = np.column_stack([columns, display_from_linear(body.colours)])
+    parts = [f"# {body.generator}: metres, +y up, vertices in the body model's order\n"]
+    if body.texture is not None:
+        parts.append(f"mtllib {body.name}.mtl\n")
+    parts += [f"o {body.name}\n", _rows("v", columns, places=6)]
+    if body.texture is not None:
+        parts.append(_rows("vt", body.texture.texels, places=6))
+    parts.append(_rows("vn", body.normals, places=4))
+    if body.texture is not None:
+        parts.append(f"usemtl {MATERIAL}\n")
+    # Smooth shading throughout.
+    parts.append("s 1\n")
+    parts += _faces(body.triangles, body.texture)
+    return "".join(parts).encode()
+
+
+def mtl_file(body: ShownBody, texture: Texture) -> bytes:
+    """The material of a textured body; it refers to the texture's file by name.
+
+    Kd multiplies the picture, so it is the base colour's factor, which is white.
+    """
+    colour = " ".join(f"{value:.6f}" for value in display_from_linear(body.colour))
+    return (
+        f"# {body.generator}\nnewmtl {MATERIAL}\nKd {colour}\nKs 0 0 0\nillum 1\n"
+        f"map_Kd {texture.name}\n"
+    ).encode()
+
+
+def _rows(keyword: str, values: Float[np.ndarray, "k d"], *, places: int) -> str:
+    row = keyword + f" %.{places}f" * values.shape[1] + "\n"
+    # Adding zero leaves no negative zeros.
+    return (row * len(values)) % tuple((values.round(places) + 0.0).ravel().tolist())
+
+
+def _faces(triangles: Integer[np.ndarray, "f 3"], texture: Texture | None) -> Iterator[str]:
+    """Corners as vertex/texel/normal, counted from one; a vertex and its normal share a number."""
+    vertices = triangles + 1
+    if texture is None:
+        numbers = np.stack([vertices, vertices], axis=2)
+        row = "f %d//%d %d//%d %d//%d\n"
+    else:
+        numbers = np.stack([vertices, texture.triangles + 1, vertices], axis=2)
+        row = "f %d/%d/%d %d/%d/%d %d/%d/%d\n"
+    yield (row * len(triangles)) % tuple(numbers.ravel().tolist())
+
+
+def ply_file(body: ShownBody) -> bytes:
+    """Binary PLY with normals, and colours as displayed where each vertex has its own."""
+    from trimesh.exchange.ply import export_ply
+
+    return export_ply(_mesh(body), encoding="binary", vertex_normal=True)
+
+
+def stl_file(body: ShownBody) -> bytes:
+    """Binary STL: triangles in the model's order, each with its three corners; no colours."""
+    from trimesh.exchange.stl import export_stl
+
+    return export_stl(_mesh(body))
+
+
+def _mesh(body: ShownBody) -> "trimesh.Trimesh":
+    # It brings a hundred modules, and is loaded by whom one of its formats is asked of.
+    import trimesh
+
+    levels = None
+    if body.colours is not None:
+        levels = to_levels(display_from_linear(body.colours))
+        levels = np.column_stack([levels, np.full(len(levels), 255, dtype=np.uint8)])
+    # Processing would merge and reorder vertices.
+    return trimesh.Trimesh(
+        vertices=body.vertices,
+        faces=body.triangles,
+        vertex_normals=body.normals,
+        vertex_colors=levels,
+        process=False,
+    )
+
+
+class UntexturedError(Exception):
+    """A material file was asked for of a body without a texture."""
+
+
+def converted(glb: bytes, ending: str) -> bytes:
+    """The body of a GLB file in the format of an ending of :data:`FORMATS`.
+
+    Raises
+    ------
+    UntexturedError
+        If it is ``mtl`` and the body has no texture.
+    """
+    return FORMATS[ending](shown_body(glb))
+
+
+def _mtl(body: ShownBody) -> bytes:
+    if body.texture is None:
+        raise UntexturedError
+    return mtl_file(body, body.texture)
+
+
+FORMATS: Final[Mapping[str, Callable[[ShownBody], bytes]]] = {
+    "obj": obj_file,
+    "mtl": _mtl,
+    "ply": ply_file,
+    "stl": stl_file,
+}
+"""By the ending of a file's name; ``mtl`` is the material file of a textured OBJ."""

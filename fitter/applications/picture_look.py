@@ -1,11 +1,13 @@
-"""What a picture shows of a body, less what cannot be right of its parts.
+"""Looks at a body in a picture: less what cannot be right of its parts, and of both its sides.
 
-A face is believed as a whole or not at all: half of one, mirrored, is nobody's. And hands are of
-the face's skin or in gloves: a hand that is partly skin and partly something else lies beside the
-picture's, before what is behind it.
+A face is believed as a whole or not at all: half of one, mirrored, is nobody's. What one side hides
+its mirror image on the other may show, in other light: where both are seen their colours differ by
+a factor, by which what is mirrored beside it is changed too; over some centimetres that is
+forgotten.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -18,6 +20,7 @@ from fitter.applications.picture_surface import (
     smooth_step,
 )
 from fitter.applications.rings import Region, RingCoordinates
+from fitter.applications.surface_field import extend_values
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
 from fitter.numerics.rotations import unit_vectors
@@ -123,3 +126,70 @@ def _away(colours: Colours, skin: Vector3) -> Float[np.ndarray, " k"]:
     """Distance of the channels' ratios from skin's."""
     ratio = np.maximum(colours, DARKEST) / np.maximum(skin, DARKEST)
     return np.ptp(np.log(ratio.T), axis=0)
+
+
+FORGOTTEN_M = 0.06
+"""Along the surface, over which the light at a border loses its influence by e."""
+
+MOST_RATIO = 0.6
+"""Logarithm of the most that light differs by: more is another colour, which is not carried on."""
+
+_CHUNK = 1 << 17
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BothSides:
+    """A look at both sides of a body.
+
+    Attributes
+    ----------
+    ratios
+        (m, 3) logarithms of what colours of the other side are multiplied by.
+    """
+
+    look: Look
+    model: BodyModel
+    ratios: Float[np.ndarray, "m 3"]
+
+    @classmethod
+    def of(cls, look: Look, model: BodyModel) -> "BothSides":
+        """A look, with the difference between the sides where it shows both."""
+        colours, seen = look(at_vertices(model))
+        both = (seen >= BELIEVED) & (seen[model.mirror] >= BELIEVED)
+        ratios = extend_light(model, both, colours, colours[model.mirror])
+        return cls(look=look, model=model, ratios=ratios)
+
+    def at(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
+        """Colours of points, how far they are seen, and how far their mirror image is instead.
+
+        The colour is the mean of both, each by its weight; the point itself comes first.
+        """
+        parts = [
+            self._at_few(points.some(slice(first, first + _CHUNK)))
+            for first in range(0, len(points.corners), _CHUNK)
+        ]
+        colours, seen, mirrored = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return colours, seen, mirrored
+
+    def _at_few(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
+        colours, seen = self.look(points)
+        mirror = SurfacePoints(corners=self.model.mirror[points.corners], weights=points.weights)
+        other, belief = self.look(mirror)
+        other = other * np.exp(points.of(self.ratios))
+        mirrored = (1.0 - seen) * belief
+        total = np.maximum(seen + mirrored, 1e-12)[:, None]
+        return (seen[:, None] * colours + mirrored[:, None] * other) / total, seen, mirrored
+
+
+def extend_light(
+    model: BodyModel, known: Bool[np.ndarray, " m"], colours: Colours, others: Colours
+) -> Float[np.ndarray, "m 3"]:
+    """Logarithms of what makes other colours of vertices these, as far as light does.
+
+    Where they are known, and from there toward 0 by e over :data:`FORGOTTEN_M`.
+    """
+    ratios = np.log(np.maximum(colours, DARKEST) / np.maximum(others, DARKEST))
+    lit = known & (np.abs(ratios).max(axis=1) < MOST_RATIO)
+    if not lit.any():
+        return np.zeros_like(ratios)
+    return extend_values(model, lit, ratios, over_m=FORGOTTEN_M)
