@@ -193,7 +193,7 @@ class AnimationOptions(ProductOptions):
 
 
 class AnimationResult(ProductResult):
-    """``body_animated.glb``, ``body_skinned.glb``, ``animation.png`` and ``animation.webp``.
+    """``body_animated.glb``, ``body_skinned.glb`` and a film, ``animation.webp``.
 
     The first holds the bodies of SCAPE as morph targets, the second bones and a skin that follows
     them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's. Their

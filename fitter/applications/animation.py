@@ -1,22 +1,32 @@
 """A fitted person set in motion: by a BVH file, or by a motion that ships with the package."""
 
+import io
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from PIL import Image as PillowImage
 
 from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
-from fitter.applications.filmstrip import film, strip
-from fitter.applications.motion import Motion, grounded, motion_of_cycle, moving_body, sliding_m
+from fitter.applications.motion import (
+    Motion,
+    MovingBody,
+    grounded,
+    motion_of_cycle,
+    moving_body,
+    sliding_m,
+)
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.named_motions import NAMED_MOTIONS
 from fitter.applications.poses import Rig
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import Axis, retarget
+from fitter.arrays import Vertices
+from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
-from fitter.export.display import png
 from fitter.export.gltf_mesh import BodyTexture
+from fitter.export.views import EYE_LEVEL_M, before_onlooker, coloured_body, framing_camera
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import FitWarning
 
@@ -24,6 +34,17 @@ MOST_FRAMES = 360
 """Of an animation: 12 s at 30 frames a second. Each is an exact body of 149 kB while it is made."""
 
 MOST_FRAMES_PER_SECOND = 30.0
+
+FILM_PX = (300, 400)
+"""Width and height."""
+
+FILM_FRAMES_PER_SECOND = 15.0
+MOST_FILM_FRAMES = 120
+
+FILM_DEGREES = 40.0
+"""From where the film is seen: between the front and the person's left."""
+
+_QUALITY = 70
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,8 +69,7 @@ class Animation:
     ----------
     files
         ``body_animated.glb`` (exact bodies by morph targets), ``body_skinned.glb`` (linear
-        blending), ``animation.png`` (a strip of moments from the front and the side) and
-        ``animation.webp`` (the same, moving).
+        blending) and ``animation.webp`` (a film that follows the person, again and again).
     frames, frame_time_s
         How many, and seconds from one to the next.
     morph_targets
@@ -164,10 +184,7 @@ def animate(
     model, shape = evaluator.model, person.body.shape
     body = grounded(moving_body(evaluator, shape, motion), model)
     # The film before the large files: while it is made all its pictures are in memory.
-    files = {
-        "animation.png": png(strip(body, model.triangles)),
-        "animation.webp": film(body, model.triangles),
-    }
+    files = {"animation.webp": _film(body, model)}
     exact = principal_frames(body.shapes)
     skin = skin_of(body, model)
     files |= {
@@ -201,3 +218,37 @@ def animate(
         sliding_mm=1e3 * sliding_m(body, model),
         travelled_m=float((way[0] ** 2 + way[2] ** 2) ** 0.5),
     )
+
+
+def _film(body: MovingBody, model: BodyModel) -> bytes:
+    """An animated WebP of at most 15 frames a second; the camera goes along with the person."""
+    frame_time_s = body.motion.frame_time_s
+    step = max(
+        1,
+        round(1.0 / (FILM_FRAMES_PER_SECOND * frame_time_s)),
+        -(-len(body.shapes) // MOST_FILM_FRAMES),
+    )
+    chosen = range(0, len(body.shapes), step)
+    width, height = FILM_PX
+    some = np.concatenate([_before_film(body, frame) for frame in chosen[::4]])
+    camera = framing_camera(some, width=width, height=height)
+    pictures = [
+        PillowImage.fromarray(coloured_body(_before_film(body, frame), model.triangles, camera))
+        for frame in chosen
+    ]
+    stream = io.BytesIO()
+    pictures[0].save(
+        stream,
+        format="WEBP",
+        save_all=True,
+        append_images=pictures[1:],
+        duration=round(1000.0 * step * frame_time_s),
+        loop=0,
+        quality=_QUALITY,
+    )
+    return stream.getvalue()
+
+
+def _before_film(body: MovingBody, frame: int) -> Vertices:
+    along = np.array([body.roots[frame, 0], EYE_LEVEL_M, body.roots[frame, 2]])
+    return before_onlooker(body.vertices(frame), along, FILM_DEGREES)

@@ -5,7 +5,7 @@ from api_schemas.products.documents import (
     CompositionOptions,
     CompositionResult,
 )
-from fitter.applications.body_fat import body_fat, body_mass_index
+from fitter.applications.composition import body_fat, body_mass_index
 from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
 from service.representation.csv_tables import models_csv
 

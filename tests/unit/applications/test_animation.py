@@ -266,7 +266,6 @@ def test_an_animation_states_in_its_files_what_it_reports(animation):
     assert set(animation.files) == {
         "body_animated.glb",
         "body_skinned.glb",
-        "animation.png",
         "animation.webp",
     }
     morphed, skinned = (
@@ -300,14 +299,6 @@ def test_the_film_moves_and_plays_as_long_as_the_motion(animation):
     assert film.n_frames > 10
     assert seconds == pytest.approx(animation.frames * animation.frame_time_s, rel=0.1)
     assert all(np.abs(b - a).max() > 50 for a, b in itertools.pairwise(pictures))
-
-
-def test_the_strip_shows_eight_moments_from_two_sides(animation):
-    strip = np.asarray(Image.open(io.BytesIO(animation.files["animation.png"])).convert("L"))
-    rows = np.split(strip, 2)
-    for panel in (panel for row in rows for panel in np.split(row, 8, axis=1)):
-        drawn = np.flatnonzero((panel[40:] < 250).any(axis=1))
-        assert np.ptp(drawn) > 200
 
 
 def test_documents_are_json_of_finite_numbers(animation):

@@ -28,7 +28,6 @@ export const files = {
     "body_animated.glb": "Moving exactly, as morph targets",
     "body_skinned.glb": "Moving by bones and skin, for game engines",
     "animation.webp": "The motion as a moving picture",
-    "animation.png": "Moments of it, from the front and the side",
     "texture.png": "The texture alone",
     "texture.jpg": "The skin’s colours, for meshes in other formats",
     "coverage.png": "What of it was seen, mirrored, continued",

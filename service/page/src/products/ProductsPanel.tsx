@@ -61,8 +61,8 @@ function hasBody({ kind, links }: Product): boolean {
 function ProductCard({ product, isOnStage, onShow }: { product: Product; isOnStage: boolean; onShow: () => void }) {
   const { products: words } = messages;
   const { kind, links, problem, progress, result, state } = product;
-  const { picture = "", still = picture, told } = KINDS[kind];
-  const url = usePictureOf(links, isCalm.matches ? still : picture, state === "succeeded");
+  const { picture = "", moves = false, told } = KINDS[kind];
+  const url = usePictureOf(links, isCalm.matches && moves ? "" : picture, state === "succeeded");
   const { label } = words.kinds[kind];
   return (
     <li class={isOnStage ? "is-on-stage" : ""} data-kind={kind} data-state={state}>

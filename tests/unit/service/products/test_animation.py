@@ -61,7 +61,6 @@ def test_a_clip_moves_the_body_by_the_joints_and_the_axis_that_are_told():
     assert result["frames"] == 3
     assert [warning["code"] for warning in result["warnings"]] == ["bvh-irregular"]
     assert set(output.files) == {
-        "animation.png",
         "animation.webp",
         "body_animated.glb",
         "body_skinned.glb",

@@ -21,7 +21,7 @@ export const animation: Kind<AnimationWishes> = {
   part: ({ motion }) => motion && { name: "bvh", file: motion },
   Options: MotionOptions,
   picture: "animation.webp",
-  still: "animation.png",
+  moves: true,
   body: { file: "body_animated.glb", label: words.turned },
 };
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.applications.body_fat import body_fat, body_mass_index
+from fitter.applications.composition import body_fat, body_mass_index
 from fitter.measurement.joint_measurements import JointMeasurements
 from fitter.vocabulary.choices import Gender
 
