@@ -17,7 +17,7 @@ from fitter.body.pose_prior import PriorTerms
 
 
 class Support(Enum):
-    """Which points of the body rows depend on."""
+    """Points of the body that rows depend on."""
 
     VERTICES = auto()
     LANDMARKS = auto()

@@ -1,4 +1,4 @@
-"""Which way is up: the camera's tilt, and how the person stands, from the body alone.
+"""The camera's tilt and the person's stance, from the body alone: which way is up.
 
 Nothing else in the picture is asked. What is known of people and of cameras:
 

@@ -31,7 +31,7 @@ from fitter.vocabulary.points import POINT_NAMES
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbReading:
-    """Which way a limb faces in the best reading of the clicks.
+    """Facing of a limb in the best reading of the clicks.
 
     ``alternative_nats`` is how much worse the best reading with the opposite facing explains the
     clicks and the prior, None where there is none worth mentioning; ``ambiguous`` says that the

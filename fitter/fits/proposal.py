@@ -1,4 +1,4 @@
-"""What is proposed for a picture, and what is wrong with it, before any fit is requested.
+"""Proposals for a picture, and its faults, before any fit is requested.
 
 The picture is decoded and reduced just as in a fit, so that the points are those a fit would
 propose to itself.
@@ -60,7 +60,7 @@ class ProposedPoint:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Proposal:
-    """Who is in a picture, what is proposed for one of them, and what is wrong with the picture.
+    """The people in a picture, a proposal for one of them, and the faults of the picture.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a fit says about itself: how it ended, which way limbs face, what to look at.
+"""Reports of a fit about itself: its end, the facing of limbs, and warnings.
 
 That pictures show different people, others than announced or a given measurement that is wrong, is
 found by residuals: what one picture says of the shape against the others, how a fitted body is
@@ -162,7 +162,7 @@ def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarn
 
 
 def insistence_warnings(choices: Choices, found: PictureFit) -> tuple[FitWarning, ...]:
-    """What measurements are worth that are given because the request insists."""
+    """Warnings of measurements that are given because the request insists."""
     if found.is_plausible or not choices.force:
         return ()
     return (
@@ -177,7 +177,7 @@ def insistence_warnings(choices: Choices, found: PictureFit) -> tuple[FitWarning
 
 
 def shading_warnings(view: View, found: PictureFit) -> tuple[FitWarning, ...]:
-    """What was asked for about the light but could not be found."""
+    """Warnings of what was asked for about the light but could not be found."""
     if view.cues is not Cues.SES:
         return ()
     return (_SHADING_NOT_USED,) if found.person.light is None else ()

@@ -79,7 +79,7 @@ def taut_chain(
 @no_type_check
 @njit(cache=True, error_model="numpy")
 def crossings(vertices, displacements, step, edges, point, normal):
-    """Where b planes cross the edges (c, 2) of b bodies, and how far beyond an edge at most.
+    """Crossings of b planes with the edges (c, 2) of b bodies, and how far beyond an edge at most.
 
     Returns the share of each edge (b, c), the points (b, c, 3), and metres.
     """

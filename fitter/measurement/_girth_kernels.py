@@ -175,7 +175,7 @@ def _stretches(cut, cut_edges, starts, closed):
 @no_type_check
 @njit(cache=True)
 def _without_scraps(points, starts, closed):
-    """Which lines a tape goes round.
+    """The lines that a tape goes round.
 
     Where a line closes, open ones lie on a limb beyond the region's border. Above the armpits,
     where none closes, front and back are what the tape spans, and short ones are such scraps: they

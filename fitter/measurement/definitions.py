@@ -31,7 +31,7 @@ class Unit(StrEnum):
 
 
 class Selection(StrEnum):
-    """Which of the cuts along the axis is taken."""
+    """The cut along the axis that is taken."""
 
     LARGEST = "largest"
     SMALLEST = "smallest"
@@ -61,7 +61,7 @@ class Agreement(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SurveyDefinition:
-    """How ANSUR II (the US Army's anthropometric survey of 2012) takes the same of people.
+    """The same as ANSUR II, the US Army's anthropometric survey of 2012, takes it of people.
 
     After its measurer's handbook (Hotzman et al. 2011, NATICK/TR-11/017) and report (Gordon et al.
     2014, NATICK/TR-15/007), in our words.
@@ -89,7 +89,7 @@ class SurveyDefinition:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IsoDefinition:
-    """How ISO 8559-1:2017, the tailors' standard, takes the same of people; in our words.
+    """The same as ISO 8559-1:2017, the tailors' standard, takes it of people; in our words.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class IsoDefinition:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """What is said of a measurement to its reader; ``iso`` is None where the standard lacks it."""
+    """Description of a measurement to its reader; ``iso`` is None where the standard lacks it."""
 
     name: str
     unit: Unit

@@ -173,7 +173,7 @@ def _border_point(points: Points3D, shares: Float[np.ndarray, " k"], before: int
 
 
 def hull_indices(points: Points2D) -> Integer[np.ndarray, " corners"]:
-    """Which points are corners of the convex hull, counter-clockwise."""
+    """Indices of the corners of the convex hull, counter-clockwise."""
     return convex_hull(np.ascontiguousarray(points))
 
 

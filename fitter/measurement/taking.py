@@ -126,7 +126,7 @@ def taken_values(
 def taken_line(
     definition: MeasurementDefinition, taken: TakenBody, placements: Mapping[str, float]
 ) -> Points3D:
-    """Where the measurement is taken, (k, 3) on the body in the canonical pose; empty if nowhere.
+    """Line of the measurement, (k, 3) on the body in the canonical pose; empty if there is none.
 
     A girth is closed by repeating its first point. A caliper's line runs through the middle of what
     it spans.

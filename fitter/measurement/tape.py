@@ -193,7 +193,7 @@ def _rearmost_at(
 
 
 def _upper_chain(points: Points2D) -> Integer[np.ndarray, " corners"]:
-    """Which points are on the upper convex chain, from the rightmost to the leftmost."""
+    """Indices of the upper convex chain, from the rightmost to the leftmost."""
     hull = hull_indices(points)
     along = points[hull, 0]
     left, right = int(np.argmin(along)), int(np.argmax(along))

@@ -98,7 +98,7 @@ with 64 or 300: two thirds of its triangles are those of head, hands and feet.""
 def pierced_triangles(
     vertices: Vertices, triangles: Triangles, edges: Integer[np.ndarray, "e 2"]
 ) -> Bool[np.ndarray, " f"]:
-    """Which triangles an edge of the same mesh runs through.
+    """Whether an edge of the same mesh runs through each triangle.
 
     Edges and triangles that share a corner do not count: they always touch. Of two surfaces that
     cross, every crossing of two triangles has an edge of one that runs through the other.

@@ -144,7 +144,7 @@ def camera_tilt(certain: Certainty) -> CameraTilt:
 def covered_distances(
     objective: Objective, certain: Certainty
 ) -> dict[ClothedRegion, tuple[float, float]]:
-    """How far the outline stands off the body under loose cloth, and its standard error, metres.
+    """Distance of the outline from the body under loose cloth, and its standard error, metres.
 
     The mean over the lines of upper body and legs, each counted as far as it shows cloth. Empty
     where the outline was not found on lines; regions that show none are left out.

@@ -1,4 +1,4 @@
-"""How far measurements from pictures are off on people who were measured with a tape.
+"""Errors of measurements from pictures on people who were measured with a tape.
 
 People, not pictures, are the sample: what several pictures of one person say is first averaged over
 them, and intervals are bootstrapped over persons (Efron, 1979).
@@ -137,7 +137,7 @@ def _within_people(values: Sequence[Sequence[float]]) -> float | None:
 
 
 def _tape_error(by_person: dict[str, list[Pair]]) -> float | None:
-    """Of the readings of each person once, whichever picture they are written beside."""
+    """Error of the readings of each person, once, whichever picture they are written beside."""
     differences = [
         group[0].tape - group[0].again for group in by_person.values() if group[0].again is not None
     ]

@@ -293,7 +293,7 @@ def distinct_hypotheses(fitted: FittedPoses) -> FittedPoses:
 
 
 def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing]]:
-    """Which way every limb of every pose faces.
+    """Facing of every limb of every pose.
 
     A limb nearly parallel to the image may come out a degree to either side in two poses that are
     really the same reading. So a pose differs from the first only in limbs whose slant clearly

@@ -173,7 +173,7 @@ def _twisted_into_bend(
 
 
 def _allowed(ends: LimbEnds, facing: Facing | None, length_m: float) -> Bool[np.ndarray, "... 2"]:
-    """Which of the two readings to keep."""
+    """Whether to keep each of the two readings."""
     shape = ends.points.shape[:-1]
     if facing is not None:
         kept = np.array([facing is Facing.TOWARD, facing is Facing.AWAY])

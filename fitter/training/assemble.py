@@ -47,7 +47,7 @@ SHAPE_COUNT = 20
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BodyMesh:
-    """What the bodies of a model share besides their vertices; fields as in the model."""
+    """Everything but vertices that the bodies of a model share; fields as in the model."""
 
     triangles: Triangles
     parts: Parts

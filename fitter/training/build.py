@@ -132,7 +132,7 @@ KEPT_MEASUREMENTS = (
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Materials:
-    """What one gender's model is made of: a space of bodies, the rigged mesh, its landmarks."""
+    """Materials of one gender's model: a space of bodies, the rigged mesh, its landmarks."""
 
     gender: str
     space: BodySpace

@@ -1,4 +1,4 @@
-"""Where the bones of the rig turn, told by the skin around them.
+"""Centres about which the bones of the rig turn, told by the skin around them.
 
 MakeHuman marks the centre of a bone by a small helper cube inside the body. Its targets move the
 cubes more or less as they move the skin: with age, ancestry, weight and muscle a hip's cube strays
@@ -230,6 +230,6 @@ def _row(
 def _share_of_way(
     start: Float[np.ndarray, "3"], end: Float[np.ndarray, "3"], point: Float[np.ndarray, "3"]
 ) -> float:
-    """How far along the line from start to end a point lies, 0 to 1."""
+    """Share of the way from start to end at which a point lies, 0 to 1."""
     way = end - start
     return float((point - start) @ way / (way @ way))

@@ -238,7 +238,7 @@ def bone_motions(
 def placed_heads(
     rig: Rig, heads: Float[np.ndarray, "b 3"], rotations: Rotations
 ) -> Float[np.ndarray, "b 3"]:
-    """Where the bones' centres come to lie, body frame; the root bone's stays."""
+    """Places of the turned bones' centres, body frame; the root bone's stays."""
     placed = heads.copy()
     for bone, parent in enumerate(rig.bone_parent):
         if parent >= 0:

@@ -1,4 +1,4 @@
-"""Which part's turn moves which bone of the rig, and how far.
+"""Drives of the rig's bones: the part whose turn moves each, and by what share.
 
 Shares along a chain spread one joint of ours over several bones, as the body spreads it over
 several bones and over skin: two vertebrae of the rig for the spine and for the chest each, the
@@ -149,7 +149,7 @@ FROM_DEGREES, TO_DEGREES = 60.0, 160.0
 
 
 def raised_shares(turns: Pose, axes: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, " k"]:
-    """How far arms are raised: 0 below :data:`FROM_DEGREES`, 1 above :data:`TO_DEGREES`.
+    """Raising of the arms: 0 below :data:`FROM_DEGREES`, 1 above :data:`TO_DEGREES`.
 
     Parameters
     ----------

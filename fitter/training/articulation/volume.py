@@ -58,7 +58,7 @@ _RIGID_ENDS = ("head", "hand", "foot")
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class JointSurroundings:
-    """What a joint deforms when it alone turns.
+    """Skin that a joint deforms when it alone turns.
 
     Attributes
     ----------

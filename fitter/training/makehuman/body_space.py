@@ -29,7 +29,7 @@ from fitter.training.makehuman.phenotypes import (
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Traits:
-    """What no measurement decides.
+    """Traits that no measurement decides.
 
     Attributes
     ----------

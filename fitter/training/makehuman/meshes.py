@@ -76,7 +76,7 @@ def _left_ring(
     vertices: Float[np.ndarray, "v 3"],
     body_vertex_ids: Integer[np.ndarray, " m"],
 ) -> Integer[np.ndarray, " r"]:
-    """Of each sector about the leg the vertex nearest to its middle and to the cube's level."""
+    """The vertex of each sector about the leg nearest to its middle and to the cube's level."""
     knee, hip, ankle = (vertices[groups[name]].mean(axis=0) for name in (KNEE, HIP, ANKLE))
     down = (ankle - hip) / np.linalg.norm(ankle - hip)
     across = np.cross(down, [0.0, 0.0, 1.0])

@@ -59,7 +59,7 @@ def closed_surface(
 
 
 def cavity_quads(uv_quads: Integer[np.ndarray, "q 4"]) -> Bool[np.ndarray, " q"]:
-    """Which quads line the mouth and the eye sockets: those of the small texture islands."""
+    """The quads that line mouth and eye sockets: those of the small texture islands."""
     starts, ends = uv_quads.ravel(), np.roll(uv_quads, -1, axis=1).ravel()
     count = int(uv_quads.max()) + 1
     links = sparse.coo_array((np.ones(len(starts)), (starts, ends)), shape=(count, count))

@@ -21,7 +21,6 @@ from jaxtyping import Float
 
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model import regress
-from fitter.body.model_checks import HEIGHT_RANGE_M
 from fitter.errors import MeshFolderError
 from fitter.training.articulation.parts import part_index
 from fitter.training.own_bodies.mesh_files import READERS, MeshFile, read_mesh
@@ -160,6 +159,10 @@ def _edge_lengths(vertices: Vertices, triangles: Triangles) -> Float[np.ndarray,
     corners = vertices[triangles]
     return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).reshape(-1)
 
+
+HEIGHT_RANGE_M = (0.4, 2.6)
+"""Vertical extent of a mean body at rest: the smallest child and the tallest person in metres, and
+neither in centimetres nor feet."""
 
 BODIES_FILE = "bodies.json"
 REST_FOLDER = "rest"

@@ -47,7 +47,7 @@ the bodies span fewer axes than there are."""
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OwnPlan:
-    """How a user's bodies are trained on.
+    """Plan of a training on a user's bodies.
 
     ``axes`` shape axes are wanted; ``held_out`` subjects, drawn by ``seed``, are never trained on.
     """
@@ -65,7 +65,7 @@ class PosedScan(NamedTuple):
 
 
 class PoseTermSource(NamedTuple):
-    """Where the pose-dependent term E comes from.
+    """Sources of the pose-dependent term E.
 
     ``origin`` says it in words, for header and report; ``scans`` are the user's that it is learned
     from; ``joints`` drive it, as in the model; ``make`` gives the term in a shape space.
@@ -222,7 +222,7 @@ def _posed_mm(model: BodyModel) -> float:
 
 
 def _possible_axes(rest: Float[np.ndarray, "s m 3"], bodies: OwnBodies, plan: OwnPlan) -> int:
-    """How many axes the bodies span, up to the number wanted."""
+    """Number of axes that the bodies span, up to the number wanted."""
     masses = vertex_masses(rest.mean(axis=0), bodies.template.mesh.triangles)
     aligned = centred(rest, masses)
     flat = (aligned - aligned.mean(axis=0)) * np.sqrt(masses / masses.sum())[:, None]
@@ -244,7 +244,7 @@ def _pose_term_sources(
     posed: Sequence[PosedScan],
     packaged: BodyModel,
 ) -> tuple[PoseTermSource, ...]:
-    """Where the pose-dependent term may come from; of several, held-out scans tell the best.
+    """Possible sources of the pose-dependent term; of several, held-out scans tell the best.
 
     A term learned from few scans is far worse than one learned from thousands of other bodies: for
     bodies of the packaged models' own rig 19.1 mm of posed error after 4 scans, 8.2 after 32, 5.1

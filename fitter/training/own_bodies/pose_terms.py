@@ -84,7 +84,7 @@ def best_rotation(
 def _turns(
     start: Vertices, end: Vertices, parts: Parts, areas: PerVertex
 ) -> Float[np.ndarray, "p 3 3"]:
-    """How far each part's skin has turned, in the body frame."""
+    """Turn of each part's skin, in the body frame."""
     return np.stack(
         [
             _rotation(start, end, areas * _following(parts, part) ** SOLENESS)

@@ -1,4 +1,4 @@
-"""What registered meshes share: the template they were registered to, with its anatomy.
+"""The template that meshes were registered to, with its anatomy.
 
 ``template.npz`` holds one; without it a folder's meshes are on the packaged topology. OWN_BODIES.md
 lists its arrays.
@@ -16,7 +16,6 @@ from scipy.spatial import KDTree
 
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
-from fitter.body.model_checks import shares_fault
 from fitter.errors import MeshFolderError
 from fitter.fits.usable_model import needed_landmarks
 from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
@@ -37,6 +36,10 @@ _KINDS: Mapping[str, str] = {
     "uv_triangles": "iu",
 }
 """The arrays of the file, and numpy's letters for what each may hold."""
+
+
+_SUM_TOLERANCE = 1e-4
+"""Of weights that sum to one, kept in single precision."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -181,13 +184,25 @@ def _check_shapes(arrays: Mapping[str, np.ndarray], count: int) -> None:
 
 def _parts(arrays: Mapping[str, np.ndarray]) -> Parts:
     weights, given = arrays["skinning_weights"], arrays["part_of_triangle"]
-    fault = shares_fault(weights)
+    fault = _shares_fault(weights)
     if fault is not None:
         _fail("skinning_weights", fault)
     if not np.array_equal(np.unique(given), np.arange(len(PART_NAMES))):
         names = ", ".join(PART_NAMES)
         _fail("part_of_triangle", f"does not give each of {names} some triangles, by its place")
     return joined_parts(arrays["triangles"], given, weights.astype(np.float64))
+
+
+def _shares_fault(weights: Float[np.ndarray, "m k"]) -> str | None:
+    """Why rows are not shares of a whole; None if they are."""
+    if (weights < 0.0).any():
+        vertex = int(np.argmax((weights < 0.0).any(axis=1)))
+        return f"holds {weights[vertex].min():.4g} at vertex {vertex}, expected no negative weight"
+    sums = weights.sum(axis=1, dtype=np.float64)
+    worst = int(np.argmax(np.abs(sums - 1.0)))
+    if abs(sums[worst] - 1.0) > _SUM_TOLERANCE:
+        return f"sums to {sums[worst]:.6g} at vertex {worst}, expected 1"
+    return None
 
 
 def _landmarks(arrays: Mapping[str, np.ndarray]) -> SparseRows:
@@ -202,7 +217,7 @@ def _rows(arrays: Mapping[str, np.ndarray], name: str, names: tuple[str, ...]) -
     """Weighted means of vertices."""
     dense: Float[np.ndarray, "r m"] = arrays[name].astype(np.float64)
     sums = dense.sum(axis=1)
-    off = np.flatnonzero(~np.isclose(sums, 1.0, atol=1e-4))
+    off = np.flatnonzero(~np.isclose(sums, 1.0, atol=_SUM_TOLERANCE))
     if len(off):
         _fail(name, f"weigh {names[off[0]]} by {sums[off[0]]:.6g} in all, expected 1")
     rows = sparse.csr_array(dense / sums[:, None])

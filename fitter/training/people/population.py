@@ -104,7 +104,7 @@ class Population:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Workshop:
-    """What all subjects of a gender share.
+    """Everything that the subjects of a gender share.
 
     ``trunk`` are the triangles of the body without its arms.
     """
@@ -182,7 +182,7 @@ _KEPT = [field.name for field in fields(Population) if field.name != "source_ver
 
 
 def population_path(folder: Path, gender: str, seed: int) -> Path:
-    """Where a folder keeps the population of a gender and a seed."""
+    """File of the population of a gender and a seed in a folder."""
     return folder / f"population_{gender}_{seed}.npz"
 
 

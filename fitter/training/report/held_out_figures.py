@@ -74,7 +74,7 @@ def held_out_figures(model: BodyModel, bodies: RegisteredBodies) -> dict[str, fl
 
 
 def height_figures(model: BodyModel) -> dict[str, float]:
-    """How well one axis carries height, millimetres.
+    """Figures of how well one axis carries height, millimetres.
 
     The largest change of stature, and of the whole mesh's extent, three standard deviations out
     along any other axis, and what one deviation of its own axis adds to stature.

@@ -160,7 +160,7 @@ def _visible(view: _View, tape: _Tape) -> Bool[np.ndarray, " k"]:
 
 
 def _shown_length(view: _View, tape: _Tape) -> float:
-    """Of what is visible, as it appears: foreshortened tapes tell less."""
+    """Length of what is visible, as it appears: foreshortened tapes tell less."""
     pixels, _ = view.project(tape.points)
     steps = np.linalg.norm(np.diff(pixels, axis=0), axis=1)
     return float(steps[_visible(view, tape)[1:]].sum())

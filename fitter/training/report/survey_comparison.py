@@ -221,7 +221,7 @@ def matching_weights(given: Float[np.ndarray, "s d"], target: Moments) -> Float[
 
 
 def effective_count(weights: Float[np.ndarray, " s"]) -> float:
-    """How many equally weighted people say as much: (Σ w)² / Σ w²."""
+    """Number of equally weighted people that say as much: (Σ w)² / Σ w²."""
     return float(weights.sum() ** 2 / (weights @ weights))
 
 

@@ -167,7 +167,7 @@ def packaged_statistics_path() -> Path:
 def on_the_model(
     names: Sequence[str], gender: str, surveyed: Float[np.ndarray, "... q"]
 ) -> Float[np.ndarray, "... q"]:
-    """What a body model of a surveyed person measures, where its definitions differ."""
+    """Measurements of a body model of a surveyed person, where its definitions differ."""
     scale = np.array([TAPE_OVER_CALIPER[gender].get(name, 1.0) for name in names])
     rise = np.array([REST_POSE_RISE_M[gender].get(name, 0.0) for name in names])
     return surveyed * scale + rise

@@ -1,4 +1,4 @@
-"""What ANSUR II measures, on a MakeHuman body at rest, as sums of lengths of sparse differences.
+"""Measurements of ANSUR II on a MakeHuman body at rest, as sums of lengths of sparse differences.
 
 Every measurement is a sum of distances between weighted vertices plus signed coordinate
 differences: both are linear in the targets' coefficients before the norm, which makes value and
