@@ -79,7 +79,7 @@ def disagreements(reported: Reported) -> tuple[str, ...]:
 
 
 def header_lines(model: BodyModel) -> tuple[str, ...]:
-    """Figures that only training subjects can tell: the build measured them, the header keeps them."""
+    """Figures that only training subjects can tell, from the header, where the build put them."""
     residuals, earlier = (
         found if isinstance(found := model.header.get(key), Mapping) else {}
         for key in ("population_residuals", EARLIER_METHODS_KEY)
