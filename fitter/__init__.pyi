@@ -4,9 +4,9 @@ from .errors import FitterError as FitterError
 from .errors import InvalidInputError as InvalidInputError
 from .errors import ModelFileError as ModelFileError
 from .errors import NumericalError as NumericalError
+from .fits.equipment import Equipment as Equipment
 from .fits.progress import Progress as Progress
 from .fits.progress import Stage as Stage
-from .library import Fitter as Fitter
 from .library import body_vertices as body_vertices
 from .library import estimate_body as estimate_body
 from .library import files_of as files_of
@@ -55,6 +55,7 @@ __all__ = [
     "Click",
     "Clothing",
     "Cues",
+    "Equipment",
     "Facing",
     "FitRequest",
     "FitResult",
@@ -62,7 +63,6 @@ __all__ = [
     "FitWarning",
     "FittedPerson",
     "FittedView",
-    "Fitter",
     "FitterError",
     "Gender",
     "InvalidInputError",

@@ -1,17 +1,15 @@
-"""The fitter for notebooks: an object that holds body models and detector, and functions without.
+"""The fitter for notebooks: functions, with the body models and the detector of the packages.
 
-A :class:`Fitter` works with the body models and the detector of its folders. The functions of the
-same names work with those of the packages.
+An :class:`~fitter.fits.equipment.Equipment` names other folders; each is loaded once, when first
+needed.
 """
 
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Final
 
 from fitter.arrays import Triangles, Vertices
 from fitter.export import result_files
 from fitter.fits import pipeline
-from fitter.fits.equipment import Equipment
+from fitter.fits.equipment import PACKAGED, Equipment
 from fitter.fits.progress import Observer, ignore_progress
 from fitter.measurement.anthropometry import measure as measure_shape
 from fitter.measurement.definitions import Measurement
@@ -24,68 +22,12 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Gender
 
 
-class Fitter:
-    """Fits people to pictures; body models and detector are loaded once, when first needed.
-
-    Parameters
-    ----------
-    models
-        Folder of the body models; None for those of the package.
-    detector_weights
-        Folder of the detector's weights; None for those of their package.
-
-    Examples
-    --------
-    >>> from fitter import Fitter, Gender
-    >>> fitter = Fitter()
-    >>> estimate = fitter.estimate_body(Gender.FEMALE, {"stature": 170.0})
-    >>> len(estimate.measurements) > 20
-    True
-    """
-
-    def __init__(self, *, models: Path | None = None, detector_weights: Path | None = None) -> None:
-        self.equipment = Equipment(models=models, detector_weights=detector_weights)
-
-    def fit(self, request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
-        """Fit a body to one to six pictures; see :func:`fit`."""
-        return pipeline.fit(request, self.equipment, observer=observer)
-
-    def measure(self, person: FittedPerson) -> tuple[Measurement, ...]:
-        """All measurements of a fitted person; see :func:`measure`."""
-        prepared = self.equipment.model(person.gender)
-        require_model(person, prepared.operators.model)
-        return measure_shape(
-            prepared.measuring, person.body.shape, shape_covariance=person.shape_covariance
-        )
-
-    def estimate_body(
-        self, gender: Gender, known: Mapping[str, float | KnownMeasurement]
-    ) -> BodyEstimate:
-        """The most probable body with known measurements; see :func:`estimate_body`."""
-        exactly = {
-            name: value if isinstance(value, KnownMeasurement) else KnownMeasurement(value=value)
-            for name, value in known.items()
-        }
-        return body_estimate.estimate_body(self.equipment.model(gender).population, exactly)
-
-    def body_vertices(self, gender: Gender, body: BodyParameters) -> tuple[Vertices, Triangles]:
-        """A body in its pose; see :func:`body_vertices`."""
-        operators = self.equipment.model(gender).operators
-        return operators.evaluator.vertices(body), operators.model.triangles
-
-    def files_of(self, result: FitResult, *images: bytes) -> dict[str, bytes]:
-        """Every file of a fit by name; see :func:`files_of`."""
-        model = self.equipment.model(result.person.gender).operators.model
-        return result_files(result, model=model, images=images)
-
-
-_PACKAGED: Final = Fitter()
-
-
-def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
+def fit(
+    request: FitRequest, *, equipment: Equipment = PACKAGED, observer: Observer = ignore_progress
+) -> FitResult:
     """Fit a body to one to six pictures of a person.
 
-    ``observer`` receives the progress. :class:`Fitter` does so with other body models.
+    ``observer`` receives the progress.
 
     Raises
     ------
@@ -111,10 +53,10 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
     >>> result.canonical_vertices.shape[1], result.triangles.shape[1]
     (3, 3)
     """
-    return _PACKAGED.fit(request, observer=observer)
+    return pipeline.fit(request, equipment, observer=observer)
 
 
-def measure(person: FittedPerson) -> tuple[Measurement, ...]:
+def measure(person: FittedPerson, *, equipment: Equipment = PACKAGED) -> tuple[Measurement, ...]:
     """All measurements of a fitted person, with standard errors where the fit has a covariance.
 
     For people read from ``person.npz``: those of :class:`~fitter.result.FitResult` are there
@@ -134,10 +76,19 @@ def measure(person: FittedPerson) -> tuple[Measurement, ...]:
     >>> waist.unit.value, 60.0 < waist.value < 120.0
     ('cm', True)
     """
-    return _PACKAGED.measure(person)
+    prepared = equipment.model(person.gender)
+    require_model(person, prepared.operators.model)
+    return measure_shape(
+        prepared.measuring, person.body.shape, shape_covariance=person.shape_covariance
+    )
 
 
-def estimate_body(gender: Gender, known: Mapping[str, float | KnownMeasurement]) -> BodyEstimate:
+def estimate_body(
+    gender: Gender,
+    known: Mapping[str, float | KnownMeasurement],
+    *,
+    equipment: Equipment = PACKAGED,
+) -> BodyEstimate:
     """The most probable body with known measurements, without a picture.
 
     Parameters
@@ -160,10 +111,16 @@ def estimate_body(gender: Gender, known: Mapping[str, float | KnownMeasurement])
     >>> round(heights["stature"], 3)
     170.0
     """
-    return _PACKAGED.estimate_body(gender, known)
+    exactly = {
+        name: value if isinstance(value, KnownMeasurement) else KnownMeasurement(value=value)
+        for name, value in known.items()
+    }
+    return body_estimate.estimate_body(equipment.model(gender).population, exactly)
 
 
-def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Triangles]:
+def body_vertices(
+    gender: Gender, body: BodyParameters, *, equipment: Equipment = PACKAGED
+) -> tuple[Vertices, Triangles]:
     """A body in its pose (SCAPE, section 3), before the camera.
 
     For bodies that are posed or shaped otherwise: a fit's own are in its result.
@@ -186,10 +143,13 @@ def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Trian
     >>> bool(np.abs(vertices - result.found.posed_vertices).max() < 1e-9)
     True
     """
-    return _PACKAGED.body_vertices(gender, body)
+    operators = equipment.model(gender).operators
+    return operators.evaluator.vertices(body), operators.model.triangles
 
 
-def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
+def files_of(
+    result: FitResult, *images: bytes, equipment: Equipment = PACKAGED
+) -> dict[str, bytes]:
     """Every file of a fit by name: GLB meshes, and pictures drawn over the encoded ``images``.
 
     The ``images`` are in the order of the request; the names of what belongs to one begin with its
@@ -206,4 +166,5 @@ def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
     >>> files_of(result, picture)["views/0/body_posed.glb"][:4]
     b'glTF'
     """
-    return _PACKAGED.files_of(result, *images)
+    model = equipment.model(result.person.gender).operators.model
+    return result_files(result, model=model, images=images)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Final
 
 from fitter.detection.detector import Detector, installed_detector
 from fitter.energies.fitting_operators import FittingOperators, searched_operators
@@ -107,3 +108,7 @@ class Equipment:
             if view.complete_clicks:
                 raise
             return None
+
+
+PACKAGED: Final = Equipment()
+"""The models and the detector of the packages."""

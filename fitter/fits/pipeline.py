@@ -9,7 +9,7 @@ from fitter.capture.finding import Code
 from fitter.energies.objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
-from fitter.fits.equipment import Equipment
+from fitter.fits.equipment import PACKAGED, Equipment
 from fitter.fits.error_widening import widened_covariance
 from fitter.fits.outline_search import PictureSearch, Subject, search_outline
 from fitter.fits.paper import (
@@ -49,8 +49,6 @@ _WAIST: Final = "waist_girth_smallest"
 MOST_VIEWS: Final = 6
 """Pictures of one fit; those in which a body was found before are searched faster, and may be
 :data:`fitter.person.several_pictures.MOST_PICTURES`."""
-
-PACKAGED: Final = Equipment()
 
 
 def fit(

@@ -13,8 +13,8 @@ from fitter.energies.edges import edge_cost_map
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.export.display import to_levels
 from fitter.export.views import coloured_body
-from fitter.fits.equipment import prepared_model
-from fitter.fits.pipeline import PACKAGED, fit
+from fitter.fits.equipment import PACKAGED, prepared_model
+from fitter.fits.pipeline import fit
 from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import turn_head

@@ -5,7 +5,7 @@ A table of errors means little without these rows: people resemble each other.
 
 from collections.abc import Mapping, Sequence
 
-from fitter.fits.pipeline import PACKAGED
+from fitter.fits.equipment import PACKAGED
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE, WEIGHT

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.fits.equipment import PreparedModel
-from fitter.fits.pipeline import PACKAGED
+from fitter.fits.equipment import PACKAGED, PreparedModel
 from fitter.measurement.definitions import load_definitions
 from fitter.optimizer.alternation import SMOOTHNESS_SCHEDULE
 from fitter.optimizer.light_solve import SPECULAR_EXPONENT
