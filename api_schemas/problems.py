@@ -9,6 +9,15 @@ from api_schemas.base import WireModel
 
 PROBLEM_MEDIA_TYPE: Final = "application/problem+json"
 
+MOST_ERRORS: Final = 10
+"""How many errors a problem names."""
+
+LONGEST_NAME: Final = 100
+"""How many characters of a caller's words a problem repeats."""
+
+LONGEST_TEXT: Final = 1_000
+""""Use 'nose', 'left_eye', ..." names all points."""
+
 
 class FieldProblem(WireModel):
     """What is wrong with one field, why, and what to do."""
@@ -238,14 +247,36 @@ def problem(
     )
 
 
-def field_problem(slug: str, *errors: FieldProblem) -> Problem:
-    """Build a problem about one or more fields, led by the first."""
-    first = errors[0]
+def field_problem(slug: str, *errors: FieldProblem, further: int = 0) -> Problem:
+    """Build a problem about one or more fields, led by the first.
+
+    Ten at most are named, however many a caller got wrong; ``further`` are not among ``errors``.
+    """
+    named = tuple(_shortened(error) for error in errors[:MOST_ERRORS])
+    further += len(errors) - len(named)
+    details = [f"{error.field}: {error.reason}" for error in named]
+    if further:
+        details.append(f"{further} more are at fault.")
+    first = named[0]
     return problem(
         slug,
-        detail=" ".join(f"{error.field}: {error.reason}" for error in errors),
+        detail=" ".join(details),
         remedy=first.remedy,
         code=first.code,
         field=first.field,
-        errors=errors,
+        errors=named,
     )
+
+
+def shortened(text: str, most: int = LONGEST_NAME) -> str:
+    """A caller's words as far as they are repeated."""
+    return text if len(text) <= most else f"{text[:most]}..."
+
+
+def _shortened(error: FieldProblem) -> FieldProblem:
+    cut = {
+        "field": shortened(error.field),
+        "reason": shortened(error.reason, LONGEST_TEXT),
+        "remedy": shortened(error.remedy, LONGEST_TEXT),
+    }
+    return error.model_copy(update=cut)

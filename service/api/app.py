@@ -7,6 +7,7 @@ Uvicorn does not limit how long the head of a request takes: the proxy in front 
 
 import asyncio
 import json
+import socket
 import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
@@ -37,7 +38,7 @@ from service.api.events import EventFeed
 from service.api.headers import COMPRESSED_FROM_BYTES, LEFT_AS_THEY_ARE, SecurityHeaders
 from service.api.health import Readiness
 from service.api.limits import BodyLimits, RateLimit, RequestLimit
-from service.api.observation import Observation, ServiceMetrics
+from service.api.observation import HeadAsGet, Observation, ServiceMetrics
 from service.api.problems import install_problem_handlers
 from service.api.requests import check_form
 from service.compute.lanes import Ask
@@ -60,6 +61,9 @@ IDLE_S: Final = 5
 
 HEAD_BYTES: Final = 65_536
 """The longest head of a request."""
+
+UNREAD_S: Final = 30
+"""How long an answer may lie in our buffers without its reader taking any of it."""
 
 _ROUTERS: Final = (
     submissions.ROUTER,
@@ -168,6 +172,7 @@ def _surround(app: FastAPI, *, settings: Settings, keys: KeyRing, metrics: Servi
     )
     app.add_middleware(RequestLimit)
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
+    app.add_middleware(HeadAsGet)
     app.add_middleware(Observation, metrics=metrics)
 
 
@@ -240,6 +245,14 @@ class ApiServer(uvicorn.Server):
         )
         self._draining = draining
         self._stop_delay_s = stop_delay_s
+
+    def run(self, sockets: list[socket.socket] | None = None) -> None:
+        """Serve; whoever takes nothing of an answer for long is not waited for."""
+        for each in sockets or ():
+            # Only Linux has it. Connections inherit it from the socket they are accepted at.
+            if hasattr(socket, "TCP_USER_TIMEOUT"):
+                each.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, UNREAD_S * 1000)
+        super().run(sockets)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Report not ready; stop after the delay, or at once at the second signal."""

@@ -6,16 +6,19 @@ import re
 import threading
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from typing import Annotated, Any, Final
 
-from fastapi import Header, Response
+from fastapi import Header, Request, Response
 from fastapi.responses import StreamingResponse
 from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 from starlette.concurrency import run_in_threadpool
+from starlette.types import Receive, Scope, Send
 
 from api_schemas.jobs import EventData, EventKind
-from service.api.problems import not_found
+from api_schemas.problems import problem
+from service.api.problems import not_found, problem_response
 from service.jobs.engine import JobEngine, TenantJobs
 from service.jobs.records import ACTIVE, TERMINAL, EngineUnavailableError, JobEvent, JobRecord
 
@@ -30,6 +33,9 @@ PING_S: Final = 15.0
 AWAY_PAUSE_S: Final = 1.0
 RECONNECT_MS: Final = 1_000
 MAX_WAIT_S: Final = 60
+
+OWNERS_SHARE: Final = 100
+"""How many streams and waits of one owner there may be at a time, of all that a process answers."""
 
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
 Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
@@ -72,12 +78,27 @@ EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
 class EventFeed:
     """Follows the last event number of every job that someone waits for: one query for all."""
 
-    def __init__(self, engine: JobEngine, draining: threading.Event) -> None:
+    def __init__(
+        self, engine: JobEngine, draining: threading.Event, *, owners_share: int = OWNERS_SHARE
+    ) -> None:
         self._engine = engine
         self._draining = draining
+        self._owners_share = owners_share
+        self._followed: Counter[str] = Counter()
         self._waiting: Counter[str] = Counter()
         self._last: dict[str, int] = {}
         self._changed = asyncio.Condition()
+
+    @contextmanager
+    def place(self, owner: str) -> Iterator[bool]:
+        """Take one of the owner's places while something is followed; False if none is free."""
+        has_place = self._followed[owner] < self._owners_share
+        self._followed[owner] += has_place
+        try:
+            yield has_place
+        finally:
+            self._followed[owner] -= has_place
+            self._followed += Counter()
 
     async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
         """Return when the job has an event numbered above ``number``, is gone, or time is up.
@@ -132,18 +153,47 @@ class EventFeed:
 
 
 def event_stream(
-    feed: EventFeed, jobs: TenantJobs, record: JobRecord, last_event_id: int | None
+    feed: EventFeed, owner: str, jobs: TenantJobs, record: JobRecord, last_event_id: int | None
 ) -> Response:
     """Answer with the events of a fit, as they come; 204 after its end."""
     # An event number that never existed: send all that follow.
     seen = min(last_event_id or 0, record.last_event)
     if record.state in TERMINAL and seen == record.last_event:
         return Response(status_code=204)
-    return StreamingResponse(
+    return _EventStream(
         _stream(feed, jobs, record.id, seen),
         media_type="text/event-stream",
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
+        place=feed.place(owner),
     )
+
+
+class _EventStream(StreamingResponse):
+    """A stream that has one of its owner's places, or says that there is none."""
+
+    def __init__(
+        self,
+        content: AsyncIterator[bytes],
+        *,
+        media_type: str,
+        headers: Mapping[str, str],
+        place: AbstractContextManager[bool],
+    ) -> None:
+        super().__init__(content, media_type=media_type, headers=headers)
+        self._place = place
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        with self._place as has_place:
+            if has_place:
+                await super().__call__(scope, receive, send)
+                return
+        refusal = problem(
+            "too-many-requests",
+            code="too-many-streams",
+            detail="Too many of your fits are followed already.",
+            remedy="Follow fewer fits at a time, or look at them now and then.",
+        )
+        await problem_response(Request(scope), refusal)(scope, receive, send)
 
 
 async def _stream(
@@ -192,18 +242,33 @@ def preferred_wait_s(prefer: str | None) -> int:
 
 
 async def wait_for_end(
-    feed: EventFeed, job: JobRecord, look: Callable[[], JobRecord | None], *, wait_s: float
+    feed: EventFeed,
+    owner: str,
+    job: JobRecord,
+    look: Callable[[], JobRecord | None],
+    *,
+    prefer: str | None,
+    response: Response,
 ) -> JobRecord:
-    """Wait for the end of a job, which ``look`` looks at; returns it in its state by then."""
+    """Wait for the end of a job as long as the caller prefers, where its owner has a place.
+
+    ``look`` looks at the job. Returns it in its state by then; ``response`` says that it was waited
+    for.
+    """
+    wait_s = preferred_wait_s(prefer)
     deadline = time.monotonic() + wait_s
-    while (
-        job.state in ACTIVE
-        and not feed.is_ending
-        and (remaining_s := deadline - time.monotonic()) > 0
-    ):
-        await feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
-        latest = await run_in_threadpool(look)
-        if latest is None:
-            raise not_found(what="such fit any more")
-        job = latest
+    with feed.place(owner) as has_place:
+        if not (wait_s and has_place):
+            return job
+        response.headers["Preference-Applied"] = f"wait={wait_s}"
+        while (
+            job.state in ACTIVE
+            and not feed.is_ending
+            and (remaining_s := deadline - time.monotonic()) > 0
+        ):
+            await feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
+            latest = await run_in_threadpool(look)
+            if latest is None:
+                raise not_found(what="such fit any more")
+            job = latest
     return job

@@ -14,7 +14,7 @@ from fastapi import Depends, Header, Path, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import problem
+from api_schemas.problems import problem, shortened
 from service.api.context import ApiContext
 from service.api.headers import STAND_ALONE
 from service.api.problems import ProblemError, documented
@@ -42,9 +42,6 @@ TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
 ANYTHING: Final = "*/*"
 OCTETS: Final = "application/octet-stream"
 """Matches every file: a client that accepts bytes accepts any file."""
-
-LONGEST_QUOTED: Final = 100
-"""How many characters of a header a problem quotes."""
 
 _RANGE: Final = re.compile(r"([\w!#$&^.+*-]+/[\w!#$&^.+*-]+)(?:\s*;.*)?")
 _WEIGHT: Final = re.compile(r";\s*[qQ]\s*=\s*(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)\s*(?:;|$)")
@@ -195,7 +192,7 @@ def _unknown(name: str, there_are: Mapping[str, Rendition], state: JobState) -> 
     return ProblemError(
         problem(
             "not-found",
-            detail=f"There is no file '{name}' here.",
+            detail=f"There is no file '{shortened(name)}' here.",
             remedy=there_is,
         )
     )
@@ -246,12 +243,10 @@ def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
 
 def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
     """Say that nothing acceptable is available, and what is."""
-    text = accept or ANYTHING
-    quoted = text if len(text) <= LONGEST_QUOTED else f"{text[:LONGEST_QUOTED]}..."
     return ProblemError(
         problem(
             "not-acceptable",
-            detail=f"{what} cannot be had as {quoted}.",
+            detail=f"{what} cannot be had as {shortened(accept or ANYTHING)}.",
             remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
             field="Accept",
         ),

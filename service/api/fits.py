@@ -124,7 +124,7 @@ def follow_fit(record: Found, context: Context, last_event_id: LastEventId = Non
     All events since the fit was accepted are kept: a client that comes late or reconnects misses
     none.
     """
-    return event_stream(context.feed, context.jobs, record, last_event_id)
+    return event_stream(context.feed, context.tenant, context.jobs, record, last_event_id)
 
 
 @ROUTER.post(

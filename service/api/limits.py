@@ -19,6 +19,9 @@ from service.api.problems import ProblemError, problem_response
 MOST_REQUESTS: Final = 800
 """Each takes a file descriptor, of which a process usually has 1024."""
 
+PROBES: Final = ("/healthz/", "/metrics")
+"""Requested by machines every few seconds. A service that is busy is not taken for a dead one."""
+
 BYTES_PER_S: Final = 4_000
 """A body gets a second more for each so many bytes that came: the slowest of phones are faster."""
 
@@ -33,6 +36,7 @@ LATE: Final = 408
 class RequestLimit:
     """ASGI middleware: works on up to ``most`` requests at a time; one more is answered 503.
 
+    Probes are answered whatever else is.
     Event streams count as long as they are followed. Connections that ask nothing do not count:
     uvicorn closes them when they are idle, and a proxy ends those that do not finish their
     question.
@@ -45,7 +49,7 @@ class RequestLimit:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or refuse it."""
-        if scope["type"] != "http":
+        if scope["type"] != "http" or scope["path"].startswith(PROBES):
             await self._app(scope, receive, send)
             return
         if self._running >= self._most:

@@ -4,6 +4,7 @@ Queue, workers and endings come from the database and cover all machines togethe
 processes are scraped, take the maximum of these series, not their sum.
 """
 
+import contextlib
 import logging
 import re
 import time
@@ -26,6 +27,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
+from service.api.limits import PROBES
 from service.api.problems import problem_response
 from service.jobs.engine import JobEngine
 from service.jobs.records import TERMINAL, EngineUnavailableError
@@ -37,8 +39,6 @@ LOG: Final = logging.getLogger(__name__)
 
 HEADER: Final = "x-request-id"
 WELL_FORMED: Final = re.compile(r"[A-Za-z0-9._-]{1,64}")
-QUIET: Final = ("/healthz/", "/metrics")
-"""Requested by machines every few seconds: logged at DEBUG only."""
 
 
 AVAILABLE: Final = ("maquette_database_available", "Whether this process reaches the database.")
@@ -189,6 +189,7 @@ class Observation:
             await self._app(scope, receive, send)
             return
         request = Request(scope)
+        method = request.method
         given = request.headers.get(HEADER, "")
         request_id = given if WELL_FORMED.fullmatch(given) else uuid.uuid4().hex
         request.state.request_id = request_id
@@ -197,11 +198,11 @@ class Observation:
             status = await self._answer(request, request_id, receive, send)
             seconds = time.monotonic() - started
             route = _route(scope)
-            self._metrics.count(method=request.method, route=route, status=status, seconds=seconds)
+            self._metrics.count(method=method, route=route, status=status, seconds=seconds)
             LOG.log(
-                logging.DEBUG if request.url.path.startswith(QUIET) else logging.INFO,
+                logging.DEBUG if request.url.path.startswith(PROBES) else logging.INFO,
                 "%s %s",
-                request.method,
+                method,
                 route,
                 extra=fields(
                     status=status,
@@ -243,3 +244,32 @@ class Observation:
 def _route(scope: Scope) -> str:
     """The template of the path that answered: of limited number, and free of ids."""
     return getattr(scope.get("route"), "path", "other")
+
+
+class _AnsweredError(Exception):
+    """Ends an answer whose body nobody reads."""
+
+
+class HeadAsGet:
+    """ASGI middleware: HEAD is answered as GET is, without the body (RFC 9110 9.3.2)."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on; a stream ends with its headers."""
+        if scope["type"] != "http" or scope["method"] != "HEAD":
+            await self._app(scope, receive, send)
+            return
+
+        async def without_body(message: Message) -> None:
+            if message["type"] != "http.response.body":
+                await send(message)
+                return
+            await send({"type": "http.response.body", "body": b""})
+            if message.get("more_body", False):
+                raise _AnsweredError
+
+        scope["method"] = "GET"
+        with contextlib.suppress(_AnsweredError):
+            await self._app(scope, receive, without_body)

@@ -12,12 +12,14 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import (
+    LONGEST_TEXT,
     PROBLEM_MEDIA_TYPE,
     PROBLEM_TYPES,
     Problem,
     ProblemType,
     field_problem,
     problem,
+    shortened,
 )
 from service.jobs.blobs import BlobsUnavailableError, StorageFullError
 from service.jobs.records import EngineFullError, EngineUnavailableError, JobExpiredError
@@ -79,7 +81,7 @@ def problem_response(
     request: Request, reason: Problem, headers: Mapping[str, str] | None = None
 ) -> Response:
     """Answer with a problem."""
-    located = reason.model_copy(update={"instance": request.url.path})
+    located = reason.model_copy(update={"instance": shortened(request.url.path, LONGEST_TEXT)})
     return Response(
         located.model_dump_json(),
         status_code=reason.status,
@@ -117,9 +119,9 @@ def _on_refusal(request: Request, error: Exception) -> Response:
 
 def _on_validation(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
-    return problem_response(
-        request, field_problem("invalid-request", *field_problems(error.errors()))
-    )
+    errors, further = field_problems(error.errors())
+    reason = field_problem("invalid-request", *errors, further=further)
+    return problem_response(request, reason)
 
 
 def _on_http(request: Request, error: Exception) -> Response:
@@ -212,7 +214,9 @@ def _allowed_methods(request: Request) -> list[str]:
         pattern = re.sub(r"\\\{\w+\\\}", "[^/]+", re.escape(template))
         if re.fullmatch(pattern, request.url.path):
             allowed |= {method.upper() for method in operations}
-    return sorted(allowed) or ["GET"]
+    if "GET" in allowed or not allowed:
+        allowed |= {"GET", "HEAD"}
+    return sorted(allowed)
 
 
 ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])

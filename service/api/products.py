@@ -29,7 +29,7 @@ from fitter.applications.bvh import MAX_BYTES
 from fitter.applications.motion_file import read_motion
 from fitter.errors import InvalidInputError
 from service.api.context import ApiContext, Context
-from service.api.events import Prefer, preferred_wait_s, wait_for_end
+from service.api.events import Prefer, wait_for_end
 from service.api.files import FORMATS, FileName, Wanted, answer_file, chosen_rendition, file_answers
 from service.api.fits import FIT_PROBLEMS, Found, no_result
 from service.api.problems import ProblemError, documented, not_found
@@ -126,11 +126,10 @@ async def make_product(
     with storing():
         submission = await run_in_threadpool(_submit, context, fit, asked, options, sent)
     product = accepted_job(submission)
-    wait_s = preferred_wait_s(prefer)
-    if wait_s > 0:
-        look = partial(context.jobs.product, fit.id, asked)
-        product = await wait_for_end(context.feed, product, look, wait_s=wait_s)
-        response.headers["Preference-Applied"] = f"wait={wait_s}"
+    look = partial(context.jobs.product, fit.id, asked)
+    product = await wait_for_end(
+        context.feed, context.tenant, product, look, prefer=prefer, response=response
+    )
     response.headers["Location"] = product_path(fit.id, asked)
     if product.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 
-from api_schemas.problems import FieldProblem, field_problem, problem
+from api_schemas.problems import FieldProblem, field_problem, problem, shortened
 from service.api.problems import ProblemError
 from service.api.storage import disk_full
 from service.jobs.blobs_local import FULL
@@ -22,7 +22,8 @@ from service.submissions.refusal import parsed
 
 JSON: Final = "application/json"
 MULTIPART: Final = "multipart/form-data"
-MAX_JSON_BYTES: Final = 1_000_000
+MAX_JSON_BYTES: Final = 200_000
+"""A size chart has 64 kB at most, and all else is smaller."""
 
 REQUEST: Final = "request"
 """The part of a form that is JSON."""
@@ -33,8 +34,6 @@ SPARE_PARTS: Final = 2
 PREFIX: Final = "/v1/"
 """Probes and scrapes of metrics are not kept from their answer by what a monitor adds to them."""
 
-MOST_NAMED: Final = 10
-LONGEST_NAME: Final = 80
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -183,7 +182,7 @@ def _unsupported(request: Request, *, remedy: str, accepted: str) -> ProblemErro
     return ProblemError(
         problem(
             "unsupported-media-type",
-            detail=f"The body is {media_type(request)[:LONGEST_NAME] or 'of no declared kind'}.",
+            detail=f"The body is {shortened(media_type(request)) or 'of no declared kind'}.",
             remedy=remedy,
         ),
         headers={"Accept-Post": accepted},
@@ -251,9 +250,9 @@ def _faults(came: Mapping[str, int], parts: Mapping[str, Part]) -> Iterator[Fiel
     for name, times in came.items():
         if name not in parts:
             yield FieldProblem(
-                field=name[:LONGEST_NAME],
+                field=name,
                 code="unknown-field",
-                reason=f"There is no part called '{name[:LONGEST_NAME]}'.",
+                reason=f"There is no part called '{shortened(name)}'.",
                 remedy=f"Parts there are: {', '.join(parts)}.",
             )
         elif times > 1 and parts[name].most == 1:
@@ -295,7 +294,7 @@ def _check_parameters(request: Request) -> None:
     there = f"Parameters there are: {', '.join(known)}." if known else "This path has none."
     faults = [
         FieldProblem(
-            field=name[:LONGEST_NAME],
+            field=name,
             code="repeated-field" if name in known else "unknown-field",
             reason="The query parameter comes more than once."
             if name in known
@@ -306,7 +305,7 @@ def _check_parameters(request: Request) -> None:
         if name not in known or times > 1
     ]
     if faults:
-        raise ProblemError(field_problem("invalid-request", *faults[:MOST_NAMED]))
+        raise ProblemError(field_problem("invalid-request", *faults))
 
 
 def _encoded(coding: str) -> ProblemError:
@@ -315,8 +314,7 @@ def _encoded(coding: str) -> ProblemError:
             "unsupported-media-type",
             code="encoded-body",
             field="Content-Encoding",
-            detail=f"The body is said to be encoded ({coding[:LONGEST_NAME]}); it is read as it "
-            "comes.",
+            detail=f"The body is said to be encoded ({shortened(coding)}); it is read as it comes.",
             remedy="Send the body without Content-Encoding; pictures are compressed already.",
         ),
         # RFC 9110, 15.5.16: so a client knows that the kind of the body is not at fault.

@@ -14,7 +14,7 @@ from api_schemas.jobs import Fit, WebhookTarget
 from api_schemas.problems import FieldProblem, problem
 from api_schemas.questions import BodyRequest
 from service.api.context import ApiContext, Context
-from service.api.events import Prefer, preferred_wait_s, wait_for_end
+from service.api.events import Prefer, wait_for_end
 from service.api.images import image_content
 from service.api.problems import ProblemError, documented, not_found
 from service.api.requests import (
@@ -121,15 +121,14 @@ async def submit_fit(
     contents = (content for each in sent for content in (each.image, each.mask or b""))
     key = _idempotency(idempotency_key, received.text, *contents)
     fit = await _accept(context, checked, asked.webhook, key=key)
-    wait_s = preferred_wait_s(prefer)
-    if wait_s > 0:
-        look = partial(context.jobs.job, fit.id)
-        fit = await wait_for_end(context.feed, fit, look, wait_s=wait_s)
-        response.headers["Preference-Applied"] = f"wait={wait_s}"
+    look = partial(context.jobs.job, fit.id)
+    fit = await wait_for_end(
+        context.feed, context.tenant, fit, look, prefer=prefer, response=response
+    )
     response.headers["Location"] = fit_path(fit.id)
     if fit.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
-    elif wait_s > 0:
+    elif "Preference-Applied" in response.headers:
         response.status_code = 200
     return represent(fit)
 

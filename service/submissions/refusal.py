@@ -12,7 +12,7 @@ from typing import Any, Final, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from api_schemas.problems import FieldProblem, Problem, field_problem, problem
+from api_schemas.problems import MOST_ERRORS, FieldProblem, Problem, field_problem, problem
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -20,11 +20,12 @@ Context = Mapping[str, Any]
 
 
 class RefusedError(Exception):
-    """Carries the problem to answer with."""
+    """Carries the problem to answer with; ``further`` fields are at fault and not named in it."""
 
-    def __init__(self, reason: Problem) -> None:
+    def __init__(self, reason: Problem, *, further: int = 0) -> None:
         super().__init__(reason.detail)
         self.problem = reason
+        self.further = further
 
 
 @contextlib.contextmanager
@@ -41,12 +42,13 @@ def of_view(number: int) -> Iterator[None]:
             for each in told.errors
         ]
         slug = told.type.rpartition("/")[2]
-        raise RefusedError(field_problem(slug, *named)) from error
+        raise refused(*named, slug=slug, further=error.further) from error
 
 
-def refused(*errors: FieldProblem, slug: str = "invalid-request") -> RefusedError:
-    """Refuse for one or more fields."""
-    return RefusedError(field_problem(slug, *errors))
+def refused(*errors: FieldProblem, slug: str = "invalid-request", further: int = 0) -> RefusedError:
+    """Refuse for one or more fields; ``further`` are not among them."""
+    reason = field_problem(slug, *errors, further=further)
+    return RefusedError(reason, further=further + len(errors) - len(reason.errors))
 
 
 _UNIT: Final = re.compile(r"_(m|kg|px|35mm)$")
@@ -104,9 +106,10 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
     try:
         return kind.model_validate_json(text)
     except ValidationError as error:
-        errors = field_problems(error.errors(), whole=whole, names=kind.model_fields)
-        if not any(each.code == "invalid-json" for each in errors):
-            raise refused(*errors) from error
+        found = error.errors(include_url=False, include_input=False)
+        errors, further = field_problems(found, whole=whole, names=kind.model_fields)
+        if errors[0].code != "invalid-json":
+            raise refused(*errors, further=further) from error
         first = errors[0]
         raise RefusedError(
             problem(
@@ -122,8 +125,8 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
 
 def field_problems(
     errors: Sequence[ErrorDetails], *, whole: str = "request", names: Collection[str] = ()
-) -> tuple[FieldProblem, ...]:
-    """Translate validation errors.
+) -> tuple[tuple[FieldProblem, ...], int]:
+    """Translate the first validation errors; also returns how many further ones there are.
 
     Parameters
     ----------
@@ -134,17 +137,13 @@ def field_problems(
     names
         The fields there are, to tell which one an unknown field was meant to be.
     """
-    return tuple(
-        _field_problem(error, whole, names) for error in errors if not _follows(error, errors)
-    )
-
-
-def _follows(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> bool:
-    """Whether it only follows from another: faulty items of a list do not count for its length."""
-    place = error["loc"]
-    return error["type"] == "too_short" and any(
-        len(other["loc"]) > len(place) and other["loc"][: len(place)] == place for other in errors
-    )
+    # Faulty items of a list do not count for its length.
+    faulty = {error["loc"][:depth] for error in errors for depth in range(len(error["loc"]))}
+    own = [
+        error for error in errors if not (error["type"] == "too_short" and error["loc"] in faulty)
+    ]
+    told = tuple(_field_problem(error, whole, names) for error in own[:MOST_ERRORS])
+    return told, len(own) - len(told)
 
 
 def _field_problem(error: ErrorDetails, whole: str, names: Collection[str]) -> FieldProblem:

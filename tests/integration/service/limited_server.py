@@ -28,6 +28,9 @@ FAIR_S = 2.0
 """Enough for what is sent at once, also by a machine that is busy."""
 
 LONG_S = 3600.0
+LARGE_BYTES = 50_000_000
+"""More than the buffers of both ends hold."""
+
 HEAD = "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n"
 
 
@@ -76,6 +79,9 @@ def application(
         await to_thread.run_sync(released.wait)
         return await length(request)
 
+    async def large(_: Request) -> Response:
+        return Response(bytes(LARGE_BYTES))
+
     async def stream(_: Request) -> Response:
         async def events() -> AsyncIterator[str]:
             yield "first\n"
@@ -88,7 +94,7 @@ def application(
     install_problem_handlers(app)
     app.add_middleware(BodyLimits, max_bytes=10**9, time_limit_s=body_s, bytes_per_s=bytes_per_s)
     app.add_middleware(RequestLimit, most=most)
-    for resource in (quick, held, length, held_length, stream):
+    for resource in (quick, held, length, held_length, large, stream):
         path = f"/{resource.__name__.replace('_', '-')}"
         app.add_route(path, resource, methods=["GET", "POST"])
     return app

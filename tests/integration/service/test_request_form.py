@@ -54,7 +54,9 @@ def test_a_parameter_that_comes_twice_is_refused(service: Service):
 
 def test_however_many_unknown_parameters_there_are_the_answer_is_short(service: Service):
     answer = service.client.get("/v1/fits?" + "&".join(f"p{n}" for n in range(2_000)))
-    assert len(checked(answer, 422).errors) == 10
+    problem = checked(answer, 422)
+    assert len(problem.errors) == 10
+    assert "1990 more are at fault." in problem.detail
 
 
 @pytest.mark.parametrize("path", ["/", "/page/sample.jpg", "/healthz/live", "/openapi.json"])
@@ -97,3 +99,17 @@ def test_a_body_of_two_ends_is_refused_and_nothing_after_it_is_answered(service:
         # The connection ends with it.
         told = caller.problem(400)
     assert (told.field, told.code) == ("Content-Length", "ambiguous-length")
+
+
+def test_head_is_answered_as_get_without_the_body(service: Service):
+    fit = service.fitted()
+    paths = ["/", "/docs", "/page/sample.jpg", "/healthz/live", "/metrics", "/openapi.json"]
+    paths += ["/v1/fits", "/v1/body-models", "/v1/bodies", "/v1/fits/nothing", "/nothing", fit]
+    paths += [f"{fit}/{each}" for each in ("result", "events", "files/body_canonical.glb")]
+    for path in paths:
+        whole, head = service.client.get(path), service.client.head(path)
+        assert (head.status_code, head.content) == (whole.status_code, b""), path
+        for name in ("content-type", "etag", "content-length", "allow", "retry-after"):
+            # Figures change by the request.
+            if (path, name) != ("/metrics", "content-length"):
+                assert head.headers.get(name) == whole.headers.get(name), (path, name)

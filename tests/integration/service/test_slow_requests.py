@@ -1,13 +1,16 @@
 """Bodies that take too long, by real sockets."""
 
+import socket
 import threading
 
 import pytest
 
+from service.api import app
 from tests.integration.service.harness import PATIENCE_S, eventually
 from tests.integration.service.limited_server import (
     FAIR_S,
     HEAD,
+    LARGE_BYTES,
     SHORT_S,
     Caller,
     let_a_body_be_late,
@@ -96,3 +99,14 @@ def test_a_body_that_ends_after_its_answer_keeps_the_connection():
         late.send("some")
         late.ask("/quick")
         assert late.status() == 200
+
+
+@pytest.mark.skipif(not hasattr(socket, "TCP_USER_TIMEOUT"), reason="Linux has it")
+def test_who_does_not_read_is_not_written_to_for_ever(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(app, "UNREAD_S", 1)
+    with serving() as served, Caller(served.port) as idle, Caller(served.port) as reader:
+        idle.ask("/large")
+        reader.ask("/large")
+        answer, content = reader.answer()
+        assert (answer.status, len(content)) == (200, LARGE_BYTES)
+        served.has_connections(1)

@@ -24,7 +24,7 @@ def request(*views: dict[str, Any], **changes: object) -> FitRequest:
 def problem(*views: dict[str, Any]) -> tuple[str, str]:
     with pytest.raises(ValidationError) as refused:
         request(*views)
-    (error,) = field_problems(refused.value.errors())
+    ((error,), _) = field_problems(refused.value.errors())
     return error.field, error.code
 
 

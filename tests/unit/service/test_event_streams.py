@@ -4,9 +4,11 @@ import asyncio
 import threading
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from fastapi import Response
 
 from api_schemas.jobs import EventData, EventKind, JobState
 from service.api import events
@@ -80,3 +82,44 @@ def test_a_process_that_stops_ends_its_streams_though_the_database_is_away():
     draining = threading.Event()
     draining.set()
     assert len(stream(Jobs(absences=1_000), draining)) == 1
+
+
+def told_to(response: Any) -> list[Any]:
+    """What is sent of an answer."""
+    sent: list[Any] = []
+
+    async def receive() -> Any:
+        await asyncio.Event().wait()
+
+    async def send(message: Any) -> None:
+        sent.append(message)
+
+    scope = {"type": "http", "method": "GET", "path": "/v1/fits/a/events", "headers": []}
+    asyncio.run(response(scope, receive, send))
+    return sent
+
+
+def test_an_owner_has_a_share_of_streams_and_waits_and_others_have_theirs():
+    engine: Any = None
+    feed = events.EventFeed(engine, threading.Event(), owners_share=1)
+    jobs: Any = Jobs(absences=0)
+    record: Any = SimpleNamespace(id="a", state=JobState.RUNNING, last_event=0)
+
+    def stream_of(owner: str) -> Any:
+        return events.event_stream(feed, owner, jobs, record, None)
+
+    def wait_of(owner: str) -> Response:
+        response = Response()
+        wait = events.wait_for_end(
+            feed, owner, record, lambda: ended, prefer="wait=60", response=response
+        )
+        asyncio.run(wait)
+        return response
+
+    ended: Any = SimpleNamespace(id="a", state=JobState.SUCCEEDED, last_event=-1)
+    with feed.place("mine"):
+        start, body = told_to(stream_of("mine"))
+        assert (start["status"], b"too-many-streams" in body["body"]) == (429, True)
+        assert "Preference-Applied" not in wait_of("mine").headers
+        assert told_to(stream_of("another's"))[0]["status"] == 200
+    assert told_to(stream_of("mine"))[0]["status"] == 200

@@ -31,7 +31,7 @@ def fault_of(kind: type[BaseModel], height_m: float) -> list[tuple[str, str]]:
     try:
         kind.model_validate({"height_m": height_m})
     except ValidationError as error:
-        problems = field_problems(error.errors())
+        problems, _ = field_problems(error.errors())
         return [(each.field, each.code) for each in problems if each.field == "height_m"]
     return []
 
@@ -53,7 +53,7 @@ def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
 def test_heights_of_children_are_refused_as_such():
     with pytest.raises(ValidationError) as caught:
         questions.PointsRequest.model_validate({"height_m": 1.1})
-    (problem,) = field_problems(caught.value.errors())
+    ((problem,), _) = field_problems(caught.value.errors())
     assert "grown-up" in problem.reason
     assert "grown-up" in problem.remedy
 

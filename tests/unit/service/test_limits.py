@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.limits import BodyLimits, RateLimit
+from service.api.limits import BodyLimits, RateLimit, RequestLimit
 from service.api.problems import ProblemError
 
 LIMIT_S = 0.2
@@ -226,3 +226,18 @@ def test_a_bucket_does_not_overflow():
 def test_keys_do_not_share_a_bucket():
     limit = RateLimit(per_minute=1, monotonic=Clock())
     assert [limit.take(KEY), limit.take("other"), limit.take(KEY)] == [0, 0, 60]
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [("/healthz/live", 200), ("/healthz/ready", 200), ("/metrics", 200), ("/v1/fits", 503)],
+)
+def test_probes_are_answered_by_a_service_that_is_full(path: str, status: int):
+    sent: list[Message] = []
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    scope = {"type": "http", "method": "GET", "path": path, "query_string": b"", "headers": []}
+    asyncio.run(RequestLimit(reads_all, most=0)(scope, last, send))
+    assert sent[0]["status"] == status

@@ -2,13 +2,15 @@
 
 import asyncio
 import logging
+from collections.abc import AsyncIterator
 from unittest.mock import create_autospec
 
 import pytest
 from starlette.requests import ClientDisconnect
+from starlette.responses import PlainTextResponse, StreamingResponse
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.observation import Observation, ServiceMetrics
+from service.api.observation import HeadAsGet, Observation, ServiceMetrics
 from service.jobs.engine import JobEngine
 from service.process.data_folder import Disk
 
@@ -56,3 +58,40 @@ def test_a_fault_is_logged_and_answered(caplog: pytest.LogCaptureFixture):
     sent = answers(ValueError("a fault"))
     assert sent[0]["status"] == 500
     assert any(record.exc_info for record in caplog.records)
+
+
+def test_head_is_get_without_the_body_and_ends_a_stream():
+    read: list[bytes] = []
+
+    async def endless() -> AsyncIterator[bytes]:
+        while True:
+            read.append(b"event")
+            yield read[-1]
+            await asyncio.sleep(0)
+
+    async def application(scope: Scope, receive: Receive, send: Send) -> None:
+        assert scope["method"] == "GET"
+        whole = PlainTextResponse("an answer", headers={"ETag": "1"})
+        await (whole if scope["path"] == "/whole" else StreamingResponse(endless()))(
+            scope, receive, send
+        )
+
+    def headed(path: str) -> list[Message]:
+        sent: list[Message] = []
+
+        async def waits() -> Message:
+            await asyncio.Event().wait()
+            raise AssertionError
+
+        async def send(message: Message) -> None:
+            sent.append(message)
+
+        scope = SCOPE | {"method": "HEAD", "path": path}
+        asyncio.run(asyncio.wait_for(HeadAsGet(application)(scope, waits, send), 600.0))
+        return sent
+
+    for path in ("/whole", "/stream"):
+        start, body = headed(path)
+        assert (start["status"], body) == (200, {"type": "http.response.body", "body": b""})
+        assert ((b"content-length", b"9") in start["headers"]) is (path == "/whole")
+    assert len(read) == 1

@@ -7,6 +7,7 @@ import pytest
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point
+from api_schemas.questions import PointsRequest
 from fitter.vocabulary.points import LIMB_POINT_NAMES, POINT_NAMES
 from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError, _meant_field, parsed
@@ -251,6 +252,32 @@ def test_all_faults_are_told_at_once():
     with pytest.raises(RefusedError) as caught:
         check(height_m=3.0, gender="unknown")
     assert {error.field for error in caught.value.problem.errors} == {"height_m", "gender"}
+
+
+@pytest.mark.parametrize(
+    "faults",
+    [
+        {"points": {f"{n:04}{'x' * 200}": [1, 1] for n in range(2_000)}},
+        {f"{n:04}{'x' * 200}": 1 for n in range(2_000)},
+    ],
+    ids=["points", "fields"],
+)
+def test_of_many_faults_ten_are_told_and_their_number(faults: dict[str, object]):
+    with pytest.raises(RefusedError) as caught:
+        parsed(PointsRequest, json.dumps(faults).encode(), whole="body", called="the body")
+    told = caught.value.problem
+    assert len(told.errors) == 10
+    assert "1990 more are at fault." in told.detail
+    assert all(len(error.field) < 120 for error in told.errors)
+    assert len(told.model_dump_json()) < 20_000
+
+
+def test_faults_that_belong_to_a_view_are_counted_too():
+    with pytest.raises(RefusedError) as caught:
+        check(points=dict.fromkeys(POINT_NAMES, [9_999, 9_999]))
+    told = caught.value.problem
+    assert (len(told.errors), told.errors[0].field) == (10, f"views.0.points.{POINT_NAMES[0]}")
+    assert f"{len(POINT_NAMES) - 10} more are at fault." in told.detail
 
 
 def test_an_absent_point_does_not_count():
