@@ -274,7 +274,7 @@ def test_of_many_faults_ten_are_told_and_their_number(faults: dict[str, object])
 
 def test_faults_that_belong_to_a_view_are_counted_too():
     with pytest.raises(RefusedError) as caught:
-        check(points=dict.fromkeys(POINT_NAMES, [9_999, 9_999]))
+        check(points={name: [9_999, 9_999] for name in POINT_NAMES})
     told = caught.value.problem
     assert (len(told.errors), told.errors[0].field) == (10, f"views.0.points.{POINT_NAMES[0]}")
     assert f"{len(POINT_NAMES) - 10} more are at fault." in told.detail
