@@ -104,10 +104,9 @@ class Maquette:
             on_progress(event)
         return _succeeded(_read(Fit, self._call("GET", fit.links.self)))
 
-    def result(self, fit: Fit, *, stages: bool = False) -> FitResult:
-        """Return what a fit has found; ``stages`` is empty unless asked for."""
-        include = {"include": "stages"} if stages else {}
-        return _read(FitResult, self._call("GET", f"{fit.links.self}/result", params=include))
+    def result(self, fit: Fit) -> FitResult:
+        """Return what a fit has found."""
+        return _read(FitResult, self._call("GET", f"{fit.links.self}/result"))
 
     def product(self, fit: Fit, request: Request, **part: Content) -> Product:
         """Have something made of a fit; ``part`` is what comes along, as ``chart=Path("a.csv")``.

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.points import AUTO, Points, PointsFormat, PointsOrAuto
-from fitter.vocabulary.choices import Clothing, Facing, LightKind, SegmentationKind, ViewKind
+from fitter.vocabulary.choices import Clothing, Facing, LightKind, ViewKind
 
 LEAST_SIDE_PX: Final = 64
 LARGEST_ASPECT_RATIO: Final = 20.0
@@ -106,11 +106,12 @@ class Lens(WireModel):
         return self
 
 
-class LightGuess(WireModel):
-    """A coarse first guess of the light, refined by the fit.
+class Light(WireModel):
+    """The light: in a request a coarse first guess, in a result the one found.
 
     Azimuth 0 and elevation 0 is a light at the camera's side of the body; positive azimuth comes
-    from the right of the picture, positive elevation from above.
+    from the right of the picture, positive elevation from above. The distance is that from the
+    body's centre; a directional light has none.
     """
 
     kind: LightKind = LightKind.POINT
@@ -172,21 +173,7 @@ class ViewRequest(Lens):
         ),
         examples=["loose", {"upper": "loose", "lower": "tight"}],
     )
-    segmentation: SegmentationKind = Field(
-        default=SegmentationKind.SEEDED_GRABCUT,
-        description=(
-            "How the person is cut out where no mask is sent: from the detector's mask, where the "
-            "service has a detector and it finds the person, or from the points' bones alone."
-        ),
-    )
-    slant_hints: bool = Field(
-        default=True,
-        description=(
-            "Have the detector, where the service has one, say how limbs slant in depth; "
-            "`limb_facing` goes before it."
-        ),
-    )
-    light: LightGuess = Field(default=LightGuess(), description="Where about the light is.")
+    light: Light = Field(default=Light(), description="Where about the light is.")
     image_id: ImageId | None = Field(
         default=None, description="The uploaded picture, where none comes with the request."
     )

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Annotated, Final, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WithJsonSchema
 
 from api_schemas.base import WireModel, refusal
 from fitter.vocabulary.points import COCO_POINT_NAMES, PointName
@@ -96,9 +96,8 @@ class Point(WireModel):
     """A clicked point, continuous pixels, with COCO's visibility: 0 absent, 1 hidden, 2 seen.
 
     A point of ``/v1/points`` can be sent as it came: as a ``proposal`` it binds a fit as loosely as
-    proposals of its name and ``confidence`` err. ``expected_error_px`` is for people; a fit does
-    not look at it. Who moves or confirms a point sends it as a ``click``, whose confidence does not
-    count.
+    proposals of its name and ``confidence`` err. Who moves or confirms a point sends it as a
+    ``click``, whose confidence does not count.
     """
 
     x: float
@@ -106,38 +105,24 @@ class Point(WireModel):
     visibility: Visibility = 2
     source: PointSource = PointSource.CLICK
     confidence: float | None = Field(default=None, ge=0.0, le=1.0)
-    expected_error_px: float | None = Field(default=None, ge=0.0)
 
 
-class DetectorPoint(WireModel):
-    """A landmark as BlazePose prints it: x and y as shares of the picture's width and height."""
-
-    x: float
-    y: float
-    z: float | None = None
-    visibility: float | None = Field(default=None, ge=0.0, le=1.0)
-    presence: float | None = Field(default=None, ge=0.0, le=1.0)
-
-
-Pair = tuple[float, float]
-MarkedPair = tuple[float, float, Visibility]
 Row = tuple[float, float, float]
 
 
 def _point_kind(value: object) -> str:
-    if isinstance(value, Point | Mapping):
-        return "[object]"
-    if isinstance(value, Sequence) and len(value) == 3:  # pyright: ignore[reportUnknownArgumentType]
-        return "[triple]"
-    return "[pair]"
+    return "[object]" if isinstance(value, Point | Mapping) else "[numbers]"
+
+
+def _marked(place: tuple[float, ...]) -> tuple[float, ...]:
+    """A place whose third number, if there is one, is a visibility."""
+    return place if len(place) == 2 else (*place[:2], _coco_visibility(place[2]))
 
 
 def _points_kind(value: object) -> str:
     if not isinstance(value, list | tuple):
         return "[named]"
     first: object = value[0] if value else None  # pyright: ignore[reportUnknownVariableType]
-    if isinstance(first, Mapping | DetectorPoint):
-        return "[landmarks]"
     if isinstance(first, list | tuple):
         return "[rows]"
     return "[numbers]"
@@ -147,21 +132,24 @@ def _points_or_auto_kind(value: object) -> str:
     return "[auto]" if isinstance(value, str) else _points_kind(value)
 
 
+Coordinates = Annotated[
+    tuple[float, ...],
+    Field(min_length=2, max_length=3),
+    AfterValidator(_marked),
+    WithJsonSchema({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3}),
+]
 NamedPoint = Annotated[
-    Annotated[Point, Tag("[object]")]
-    | Annotated[Pair, Tag("[pair]")]
-    | Annotated[MarkedPair, Tag("[triple]")],
+    Annotated[Point, Tag("[object]")] | Annotated[Coordinates, Tag("[numbers]")],
     Discriminator(_point_kind),
 ]
-"""``[x, y]``, ``[x, y, visibility]`` or ``{"x": .., "y": .., "visibility": ..}``."""
+"""``{"x": .., "y": .., "visibility": ..}``, ``[x, y]`` or ``[x, y, visibility]``."""
 
 _Named = Annotated[dict[PointName, NamedPoint], Tag("[named]")]
 _Numbers = Annotated[list[float], Field(min_length=1), Tag("[numbers]")]
 _Rows = Annotated[list[Row], Field(min_length=1), Tag("[rows]")]
-_Landmarks = Annotated[list[DetectorPoint], Field(min_length=1), Tag("[landmarks]")]
 
-Points = Annotated[_Named | _Numbers | _Rows | _Landmarks, Discriminator(_points_kind)]
-"""Named points, or a detector's: a flat list of numbers, rows of three, or BlazePose's objects."""
+Points = Annotated[_Named | _Numbers | _Rows, Discriminator(_points_kind)]
+"""Named points, or a detector's: a flat list of numbers, or rows of three."""
 
 Auto = Literal["auto"]
 AUTO: Final[Auto] = "auto"
@@ -181,7 +169,7 @@ def _auto(value: object) -> object:
 
 
 PointsOrAuto = Annotated[
-    _Named | _Numbers | _Rows | _Landmarks | Annotated[Auto, BeforeValidator(_auto), Tag("[auto]")],
+    _Named | _Numbers | _Rows | Annotated[Auto, BeforeValidator(_auto), Tag("[auto]")],
     Discriminator(_points_or_auto_kind),
 ]
 """Points, or the word that has the service propose all of them.
@@ -280,12 +268,11 @@ def points_by_name(points: Points) -> dict[PointName, Point]:
     return _present({name: _as_point(point) for name, point in points.items()})
 
 
-def _as_point(point: Point | Pair | MarkedPair) -> Point:
+def _as_point(point: Point | tuple[float, ...]) -> Point:
     if isinstance(point, Point):
         return point
-    if len(point) == 2:
-        return Point(x=point[0], y=point[1])
-    return Point(x=point[0], y=point[1], visibility=point[2])
+    x, y, *visibility = point
+    return Point(x=x, y=y, visibility=int(visibility[0]) if visibility else 2)
 
 
 def _detector_rows(points: Points, layout: PointsFormat) -> list[Row]:
@@ -294,9 +281,7 @@ def _detector_rows(points: Points, layout: PointsFormat) -> list[Row]:
     numbers: list[float] = []
     # A dict has no rows: it falls through to the count below.
     for entry in points if isinstance(points, list) else []:
-        if isinstance(entry, DetectorPoint):
-            rows.append((entry.x, entry.y, 1.0 if entry.visibility is None else entry.visibility))
-        elif isinstance(entry, tuple):
+        if isinstance(entry, tuple):
             rows.append(entry)
         else:
             numbers.append(entry)

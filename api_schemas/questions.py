@@ -1,10 +1,10 @@
 """Questions that are answered at once: bodies, initial poses, points; without a job."""
 
-from typing import Final, Literal, Self
+from typing import Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from api_schemas.base import Place, WholeNumber, WireModel, refusal
+from api_schemas.base import Place, WholeNumber, WireModel
 from api_schemas.person import HeightM, Person
 from api_schemas.picture import (
     POINTS_DESCRIPTION,
@@ -15,41 +15,23 @@ from api_schemas.picture import (
     Limb,
     LimbFacings,
 )
-from api_schemas.points import NamedPoint, Points, PointsFormat, PointSource
-from api_schemas.results import Assumption, BodyResult, CameraResult, Finding, FitWarning
+from api_schemas.points import NamedPoint, Point, Points, PointsFormat
+from api_schemas.results import (
+    Assumption,
+    BodyResult,
+    Box,
+    CameraResult,
+    Finding,
+    FitWarning,
+    Measurement,
+)
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
-from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom
+from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, SeenFrom
 from fitter.vocabulary.points import PointName
 
 
 class BodyRequest(Person):
-    """Of whom what is known."""
-
-    include_glb: bool = Field(
-        default=False,
-        description=(
-            "Put the body's GLB file into the JSON answer. `Accept: model/gltf-binary` answers "
-            "with the file itself instead."
-        ),
-    )
-
-
-class EstimatedMeasurement(WireModel):
-    """A measurement of the most probable body.
-
-    Of people of whom the same is known ``standard_error`` is the standard deviation, and 95 % lie
-    between ``low`` and ``high``; what the body model itself gets wrong is not in them.
-    """
-
-    name: str
-    value: float
-    unit: str
-    standard_error: float
-    low: float
-    high: float
-    given: bool = Field(description="Whether the request named it.")
-    definition: str
-    source: str
+    """What is known of the person."""
 
 
 class BodyEstimate(WireModel):
@@ -57,22 +39,18 @@ class BodyEstimate(WireModel):
 
     ``shape`` are coefficients in standard deviations, the first of them the height.
     ``plausibility`` is the share of the population whose measurements of the given names are
-    together at least as unusual. Warnings: ``unusual-height`` where bodies of the height are
-    extrapolated, with wider errors.
+    together at least as unusual. Of people of whom the same is known 95 % lie between ``low`` and
+    ``high`` of a measurement; what the body model itself gets wrong is not in them. Warnings:
+    ``unusual-height`` where bodies of the height are extrapolated, with wider errors.
     """
 
     gender: Gender
     height_m: float
     shape: tuple[float, ...]
-    measurements: tuple[EstimatedMeasurement, ...]
+    measurements: tuple[Measurement, ...]
     plausibility: float = Field(ge=0.0, le=1.0)
     body_model: str = Field(description="Checksum of the body model.")
     warnings: tuple[FitWarning, ...] = ()
-    glb: str | None = Field(
-        default=None,
-        description="The body as a glTF 2.0 binary file, canonical pose, base64; if asked for.",
-        json_schema_extra={"contentEncoding": "base64", "contentMediaType": "model/gltf-binary"},
-    )
 
 
 MAX_SIDE: Final = 100_000
@@ -86,38 +64,12 @@ class ImageSize(WireModel):
 
 
 class InitialPoseRequest(Person, Lens):
-    """Who is in the picture, where the joints are, and the picture: uploaded, or its size alone."""
+    """Who is in the picture, where the joints are, and how large the picture is."""
 
     points: Points = Field(description=f"{POINTS_DESCRIPTION}.", examples=[POINTS_EXAMPLE])
     format: LaidOut = PointsFormat.NAMED
     limb_facing: LimbFacings = Field(default_factory=dict[Limb, Facing])
-    image_id: ImageId | None = None
-    image_size: ImageSize | None = None
-
-    @model_validator(mode="after")
-    def _one_picture(self) -> Self:
-        if (self.image_id is None) == (self.image_size is None):
-            raise refusal(
-                code="one-picture-needed",
-                reason="Exactly one of image_id and image_size is needed.",
-                field="image_size",
-                remedy="Send the id of an uploaded picture, or the picture's width and height.",
-            )
-        return self
-
-
-class LimbReading(WireModel):
-    """Which way a limb faces in the best reading of the clicks.
-
-    ``alternative_nats`` is by how much the best reading with the other facing is less likely (the
-    difference of two negative log-likelihoods), null where there is none worth mentioning;
-    ``ambiguous`` says that the clicks hardly tell the two apart: say which in ``limb_facing``.
-    """
-
-    limb: str
-    facing: Facing
-    ambiguous: bool
-    alternative_nats: float | None
+    image_size: ImageSize
 
 
 ImagePoint = tuple[float, float]
@@ -139,7 +91,7 @@ class InitialPose(WireModel):
     outline: tuple[tuple[ImagePoint, ...], ...]
     points: dict[str, ImagePoint]
     residual_px: dict[str, float]
-    limbs: tuple[LimbReading, ...]
+    limbs: tuple[LimbFacing, ...]
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
@@ -173,36 +125,6 @@ class PointsRequest(Lens):
     mask: bool = Field(default=False, description="Whether the person's mask is wanted too.")
 
 
-class PictureSize(WireModel):
-    """Size of the picture as a browser shows it, pixels."""
-
-    width: int
-    height: int
-
-
-class FoundPerson(WireModel):
-    """A person in the picture: left, top, right and bottom of what is seen, and how surely."""
-
-    box: tuple[float, float, float, float]
-    score: float = Field(ge=0.0, le=1.0)
-
-
-class ProposedPoint(WireModel):
-    """A proposed point; it can be sent with a fit as it is.
-
-    ``visibility`` is COCO's: 2 seen, 1 hidden and guessed. ``confidence`` is how sure the detector
-    is that the point is seen. ``expected_error_px`` is the root mean square error in each
-    direction, for a person of 1.75 m.
-    """
-
-    x: float
-    y: float
-    visibility: Literal[1, 2]
-    source: Literal[PointSource.PROPOSAL]
-    confidence: float = Field(ge=0.0, le=1.0)
-    expected_error_px: float = Field(ge=0.0)
-
-
 class NotChecked(WireModel):
     """A check that could not be made, and why."""
 
@@ -213,10 +135,11 @@ class NotChecked(WireModel):
 class PointsProposal(WireModel):
     """Who is in the picture, where one of them has which point, and what is wrong with it.
 
-    Pixels of the picture as a browser shows it, of ``image_size``. ``persons`` has the largest and
-    surest first; ``points`` are those of the ``person`` at that place, null where there is nobody.
-    ``points`` can be sent as those of a fit or an initial pose. ``doubtful`` names those that are
-    to be looked at one by one.
+    Pixels of the picture as a browser shows it, of ``image_size``. ``persons`` are the boxes of
+    what is seen of them (left, top, right, bottom), the largest and surest first; ``points`` are
+    those of the ``person`` at that place, null where there is nobody. ``points`` can be sent as
+    those of a fit or an initial pose; their ``confidence`` is how sure the detector is that the
+    point is seen. ``doubtful`` names those that are to be looked at one by one.
 
     ``findings`` are those of a fit of the picture, most important first, and it is ``usable`` if
     none ``blocks``; ``not_checked`` has those that nothing can be said of. ``lean_deg`` is how far
@@ -230,10 +153,10 @@ class PointsProposal(WireModel):
     ``seen-from-behind`` and ``limbs-crossed``.
     """
 
-    image_size: PictureSize
-    persons: tuple[FoundPerson, ...]
+    image_size: ImageSize
+    persons: tuple[Box, ...]
     person: int | None
-    points: dict[PointName, ProposedPoint]
+    points: dict[PointName, Point]
     doubtful: tuple[PointName, ...]
     mask: str | None = Field(
         default=None,

@@ -1,23 +1,20 @@
 """What a fit gives back: ``result.json``."""
 
-from enum import StrEnum
-
 from pydantic import Field
 
 from api_schemas.base import WireModel
+from api_schemas.picture import Light
 from fitter.vocabulary.choices import (
     BodyRegion,
     Covering,
     Cues,
-    Facing,
     Gender,
-    LightKind,
     OptimizerKind,
     ViewKind,
 )
 from fitter.vocabulary.outcomes import (
-    FacingSource,
     FocalLengthSource,
+    LimbFacing,
     Outcome,
     Severity,
     StanceKind,
@@ -40,57 +37,38 @@ class CameraResult(WireModel):
     height: int
 
 
-class FittedCameraResult(CameraResult):
-    """The camera of a picture, with how it was held against gravity.
+class TiltResult(WireModel):
+    """How the camera was held against gravity, as told by how the person stands.
 
-    That is told by how the person stands: in the camera frame (x right, y down, z along the view)
-    up is (-sin roll cos pitch, -cos roll cos pitch, sin pitch). Null where the person says nothing
-    of it.
+    In the camera frame (x right, y down, z along the view) up is (-sin roll cos pitch, -cos roll
+    cos pitch, sin pitch). ``stance`` is the most probable kind, ``stances`` the probability of
+    each.
     """
 
-    pitch_deg: float | None = Field(
+    pitch_deg: float = Field(
         description="Positive where it looks up, negative where it looks down."
     )
-    pitch_standard_error_deg: float | None
-    roll_deg: float | None = Field(
+    pitch_standard_error_deg: float
+    roll_deg: float = Field(
         description="Positive where it is turned clockwise, seen from behind it."
     )
-    roll_standard_error_deg: float | None
-
-
-class StanceResult(WireModel):
-    """How the person stands: the most probable kind, and the probability of each."""
-
-    kind: StanceKind
-    probabilities: dict[StanceKind, float]
-
-
-class PartRotation(WireModel):
-    """The turn of one body part relative to its parent: axis times angle, radians, body frame."""
-
-    part: str
-    rotation: Vector
+    roll_standard_error_deg: float
+    stance: StanceKind
+    stances: dict[StanceKind, float]
 
 
 class BodyResult(WireModel):
     """Pose, position and shape of the body.
 
-    ``translation_m`` is the pelvis joint in the camera frame (metres, x right, y down, z along the
-    view); ``shape`` are coefficients in standard deviations, the first of them the height.
+    ``pose`` are the turns of the parts relative to their parents: axis times angle, radians, body
+    frame. ``translation_m`` is the pelvis joint in the camera frame (metres, x right, y down, z
+    along the view); ``shape`` are coefficients in standard deviations, the first of them the
+    height.
     """
 
-    pose: tuple[PartRotation, ...]
+    pose: dict[str, Vector]
     translation_m: Vector
     shape: tuple[float, ...]
-
-
-class LightResult(WireModel):
-    """The light found; angles as in the request, distance from the body's centre."""
-
-    kind: LightKind
-    azimuth_deg: float
-    elevation_deg: float
-    distance_m: float | None = Field(description="Null for a directional light.")
 
 
 class ReflectanceResult(WireModel):
@@ -120,46 +98,12 @@ class Measurement(WireModel):
     source: str
 
 
-class StageMeasurement(WireModel):
-    """A measurement of a stage's body; the result's measurements say how each is taken."""
-
-    name: str
-    value: float
-    unit: str
-    standard_error: float | None
-    given: bool = Field(description="Whether the request gave it.")
-
-
-class StageBody(WireModel):
-    """The body in a picture at the end of a stage."""
-
-    silhouette_overlap: float
-    body: BodyResult
-
-
 class Stage(WireModel):
-    """The person at the end of a stage of the fit, and how they then stand in each picture."""
+    """The person at the end of a stage of the fit: energies, and measurements by their names."""
 
     name: str
     energies: dict[str, float]
-    measurements: tuple[StageMeasurement, ...]
-    views: tuple[StageBody, ...]
-
-
-class ResultPart(StrEnum):
-    """A part of a result that is left out unless it is asked for."""
-
-    STAGES = "stages"
-
-
-class LimbFacing(WireModel):
-    """How a limb's depth ambiguity was resolved; ``ambiguous`` says the other way fits as well."""
-
-    limb: str
-    facing: Facing
-    source: FacingSource
-    ambiguous: bool
-    alternative_energy: float | None
+    measurements: dict[str, float]
 
 
 class Assumption(WireModel):
@@ -229,14 +173,14 @@ class ViewResult(WireModel):
     )
     outcome: Outcome
     verdict: Verdict
-    camera: FittedCameraResult
-    image_camera: FittedCameraResult
+    camera: CameraResult
+    image_camera: CameraResult
     focal_length_source: FocalLengthSource
     body: BodyResult
-    light: LightResult | None
+    light: Light | None
     reflectance: ReflectanceResult | None
     silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
-    stance: StanceResult | None
+    tilt: TiltResult | None = Field(description="Null where the person says nothing of it.")
     limb_facing: tuple[LimbFacing, ...]
     findings: tuple[Finding, ...] = Field(
         description=(
@@ -285,7 +229,7 @@ class FitResult(WireModel):
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
     differences: tuple[str, ...] = Field(description="From the paper, of a fit by its method.")
-    stages: tuple[Stage, ...] = Field(description="Empty unless asked for with `include=stages`.")
+    stages: tuple[Stage, ...]
     stage_seconds: dict[str, float]
     files: tuple[ResultFile, ...]
     views: tuple[ViewResult, ...]

@@ -33,18 +33,15 @@ class ServiceIndex(WireModel):
     )
 
 
-class Live(WireModel):
-    """The process answers."""
+class Health(WireModel):
+    """The process answers, or can also accept and finish a fit: ``live`` or ``ready``.
 
-    status: Literal["live"] = "live"
+    Ready is a service whose database is writable, with room on the disk and a worker that is able.
+    """
 
-
-class Ready(WireModel):
-    """The service can accept and finish a fit: database writable, disk free, a worker able."""
-
-    status: Literal["ready"] = "ready"
-    workers: int
-    queued: int
+    status: Literal["live", "ready"]
+    workers: int | None = Field(default=None, description="That are able; null of `live`.")
+    queued: int | None = Field(default=None, description="Jobs that wait; null of `live`.")
 
 
 class BodyModelInfo(WireModel):

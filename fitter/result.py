@@ -13,8 +13,8 @@ from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.segmentation.trimap import Trimap
-from fitter.vocabulary.choices import Cues, Facing, OptimizerKind, ViewKind
-from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, Severity, Verdict
+from fitter.vocabulary.choices import Cues, OptimizerKind, ViewKind
+from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, Outcome, Severity, Verdict
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
     Outcome.CONVERGED: "The energy stopped decreasing.",
@@ -33,21 +33,6 @@ VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
     Verdict.IMPLAUSIBLE: "A body was fitted, but this picture cannot be measured.",
     Verdict.NO_PERSON: "The picture shows no person where the points are.",
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LimbFacing:
-    """Resolution of a limb's depth ambiguity (section 3.1).
-
-    ``alternative_energy`` is the best energy found with the limb facing the other way, None where
-    no such hypothesis was tried; ``ambiguous`` says that the two are close.
-    """
-
-    limb: str
-    facing: Facing
-    source: FacingSource
-    ambiguous: bool
-    alternative_energy: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -9,7 +9,7 @@ import json
 from typing import Annotated, Any, Final, cast
 from uuid import UUID
 
-from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
+from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag, TypeAdapter
 
 from api_schemas.base import WireModel
 from api_schemas.jobs import JobState
@@ -46,15 +46,16 @@ AnyProductOptions = (
 )
 """What is asked for."""
 
-AnyProductResult = (
-    Annotated[TextureResult, Tag("[texture]")]
-    | Annotated[PoseResult, Tag("[pose]")]
-    | Annotated[AnimationResult, Tag("[animation]")]
-    | Annotated[CaricatureResult, Tag("[caricature]")]
-    | Annotated[PrintResult, Tag("[print]")]
-    | Annotated[SizeResult, Tag("[size]")]
-    | Annotated[CompositionResult, Tag("[composition]")]
-)
+AnyProductResult = Annotated[
+    TextureResult
+    | PoseResult
+    | AnimationResult
+    | CaricatureResult
+    | PrintResult
+    | SizeResult
+    | CompositionResult,
+    Field(discriminator="kind"),
+]
 """What came of it."""
 
 
@@ -82,12 +83,6 @@ class ProductRequest(RootModel[Annotated[AnyProductOptions, _BY_KIND]]):
     model_config = ConfigDict(frozen=True, strict=True, hide_input_in_errors=True)
 
 
-class ProductDocument(RootModel[Annotated[AnyProductResult, _BY_KIND]]):
-    """What there is to say of a product; ``kind`` says which fields there are."""
-
-    model_config = ConfigDict(frozen=True, strict=True)
-
-
 class ProductLinks(WireModel):
     """Paths of a product's resources below this service's root."""
 
@@ -108,7 +103,7 @@ class Product(WireModel):
     state: JobState
     progress: float = Field(ge=0.0, le=1.0, description="The share of the work that is done.")
     problem: Problem | None = Field(description="Why there is no result; null unless it failed.")
-    result: ProductDocument | None = Field(
+    result: AnyProductResult | None = Field(
         description="What there is to say of the files; null until it has succeeded."
     )
     links: ProductLinks
@@ -121,3 +116,11 @@ def product_id(options: ProductOptions, part: bytes | None) -> str:
     if part is not None:
         digest.update(hashlib.sha256(part).digest())
     return digest.hexdigest()[:32]
+
+
+_RESULT: Final = TypeAdapter[AnyProductResult](AnyProductResult)
+
+
+def product_result(document: bytes) -> AnyProductResult:
+    """Read what is stored of what there is to say of a product."""
+    return _RESULT.validate_json(document, strict=True)

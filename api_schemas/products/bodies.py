@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, WithJsonSchema
 
 from api_schemas.base import WholeNumber, refusal
 from api_schemas.products.base import BodyColours, ProductOptions, ProductResult
-from api_schemas.results import FitWarning, PartRotation
+from api_schemas.results import FitWarning, Vector
 
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
 """Sides a texture may have, texels."""
@@ -114,7 +114,7 @@ class PoseResult(ProductResult):
     """
 
     kind: Literal["pose"] = "pose"
-    pose: tuple[PartRotation, ...]
+    pose: dict[str, Vector] = Field(description="As in the fit's result.")
     colours: BodyColours = Field(
         default=BodyColours.PLAIN, description="What the body wears; `plain` has no texture."
     )

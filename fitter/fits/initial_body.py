@@ -25,23 +25,8 @@ from fitter.render.contours import outline_loops
 from fitter.render.rasterizer import render
 from fitter.request import Person, View
 from fitter.vocabulary.choices import Facing
-from fitter.vocabulary.outcomes import FocalLengthSource
+from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, LimbFacing
 from fitter.vocabulary.points import POINT_NAMES
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LimbReading:
-    """Facing of a limb in the best reading of the clicks.
-
-    ``alternative_nats`` is how much worse the best reading with the opposite facing explains the
-    clicks and the prior, None where there is none worth mentioning; ``ambiguous`` says that the
-    difference is small.
-    """
-
-    limb: str
-    facing: Facing
-    ambiguous: bool
-    alternative_nats: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -75,7 +60,7 @@ class InitialBody:
     vertices: Vertices
     outline: tuple[Float[np.ndarray, "_ 2"], ...]
     landmarks: Mapping[str, Float[np.ndarray, "2"]]
-    limbs: tuple[LimbReading, ...]
+    limbs: tuple[LimbFacing, ...]
     residual_px: Mapping[str, float]
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
@@ -88,7 +73,6 @@ def initial_body(
     *,
     width: int,
     height: int,
-    exif_focal_length_35mm: float | None,
 ) -> InitialBody:
     """Pose the mean person of the gender, height and known measurements to match the clicks.
 
@@ -100,8 +84,6 @@ def initial_body(
         The body model of the gender.
     width, height
         Size of the upright picture, pixels.
-    exif_focal_length_35mm
-        The 35 mm equivalent recorded in the picture, if known; the caller's value takes precedence.
 
     Raises
     ------
@@ -112,7 +94,7 @@ def initial_body(
     check_clicks(view.clicks, width=width, height=height)
     focal = focal_length(
         view,
-        ExifTags(focal_length_35mm=exif_focal_length_35mm),
+        ExifTags(),
         width=width,
         height=height,
         stored_width=width,
@@ -155,10 +137,10 @@ def initial_body(
 
 def limb_readings(
     hypotheses: Sequence[PoseHypothesis], said: Mapping[str, Facing]
-) -> tuple[LimbReading, ...]:
+) -> tuple[LimbFacing, ...]:
     """Differences in each limb between readings of the clicks, best first."""
     best = hypotheses[0]
-    readings: list[LimbReading] = []
+    readings: list[LimbFacing] = []
     for limb, facing in best.facing.items():
         others = [
             hypothesis.energy - best.energy
@@ -167,11 +149,12 @@ def limb_readings(
         ]
         nearest = min(others) if others and limb not in said else None
         readings.append(
-            LimbReading(
+            LimbFacing(
                 limb=limb,
                 facing=facing,
+                source=FacingSource.CALLER if limb in said else FacingSource.PRIOR,
                 ambiguous=nearest is not None and nearest < AMBIGUOUS_NATS,
-                alternative_nats=nearest,
+                alternative_nats=None if nearest is None else round(nearest, 2),
             )
         )
     return tuple(readings)

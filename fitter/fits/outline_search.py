@@ -24,9 +24,9 @@ from fitter.population.known_person import KnownPerson
 from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import initialize_pose
 from fitter.request import Choices, View
-from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
+from fitter.vocabulary.outcomes import LimbFacing
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -49,7 +49,7 @@ from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose
 from fitter.render.rasterizer import render
 from fitter.request import Choices, Paper, View
-from fitter.result import LimbFacing, PictureFit
+from fitter.result import PictureFit
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.trimap import Trimap, first_band, trimap
 from fitter.vocabulary.choices import (
@@ -60,7 +60,7 @@ from fitter.vocabulary.choices import (
     SegmentationKind,
 )
 from fitter.vocabulary.measurements import STATURE
-from fitter.vocabulary.outcomes import FacingSource
+from fitter.vocabulary.outcomes import FacingSource, LimbFacing
 
 MOST_ROUNDS: Final = 12
 """Of light, reflectance and body; the last of λ holds from the third on."""
@@ -314,7 +314,7 @@ def _limb_facing(initial: InitialPose, view: View) -> tuple[LimbFacing, ...]:
             facing=facing,
             source=FacingSource.CALLER if limb in view.limb_facing else FacingSource.PRIOR,
             ambiguous=False,
-            alternative_energy=None,
+            alternative_nats=None,
         )
         for limb, facing in initial.hypotheses[0].facing.items()
     )

@@ -23,21 +23,6 @@ from fitter.observation.subject import check_height
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
 
-CIRCLE_RADIUS_M = 0.95
-"""Assumed radius of the circle around a person: 0.54 of 1.75 m. The person's height is not known
-yet."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProposedPerson:
-    """A person that was found: left, top, right and bottom of what is visible, and a score.
-
-    Pixels of the upright original; ``score``, 0 to 1, is how certain the detector is.
-    """
-
-    box: Box
-    score: float
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProposedPoint:
@@ -49,13 +34,10 @@ class ProposedPoint:
         In pixels of the upright original, with its spread.
     visibility
         0 to 1, as the detector estimates it.
-    expected_error_px
-        Root mean square error in each direction, pixels of the original.
     """
 
     click: Click
     visibility: float
-    expected_error_px: float
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -67,7 +49,8 @@ class Proposal:
     width, height
         Size of the upright original, to whose pixels everything refers.
     persons
-        Everybody found, the largest and most certain first; nobody without a detector.
+        Boxes of what is visible of everybody found, pixels of the upright original; the largest
+        and most certain first; nobody without a detector.
     person
         Index of the one whose points these are; None if nobody was found.
     points
@@ -84,7 +67,7 @@ class Proposal:
 
     width: int
     height: int
-    persons: tuple[ProposedPerson, ...]
+    persons: tuple[Box, ...]
     person: int | None
     points: Mapping[str, ProposedPoint]
     mask: UInt8[np.ndarray, "h w"] | None
@@ -127,10 +110,7 @@ def propose(
     return Proposal(
         width=capture.width,
         height=capture.height,
-        persons=tuple(
-            ProposedPerson(box=_box(each, capture.scale), score=each.person.score)
-            for each in bodies
-        ),
+        persons=tuple(_box(each, capture.scale) for each in bodies),
         person=next((place for place, each in enumerate(bodies) if each is body), None),
         points={} if body is None else _points(body, capture.scale),
         mask=_mask(body, capture) if with_mask and body is not None else None,
@@ -141,13 +121,8 @@ def propose(
 
 
 def _points(body: DetectedBody, scale: float) -> dict[str, ProposedPoint]:
-    pixels_per_metre = body.person.radius / CIRCLE_RADIUS_M / scale
     return {
-        name: ProposedPoint(
-            click=click,
-            visibility=body.visibility[name],
-            expected_error_px=pixels_per_metre * (click.spread_m or 0.0),
-        )
+        name: ProposedPoint(click=click, visibility=body.visibility[name])
         for name, click in scaled_clicks(body.points, 1.0 / scale).items()
     }
 

@@ -24,10 +24,10 @@ from fitter.population.known_person import KnownPerson
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.remarks import FitWarning
 from fitter.request import Choices, View
-from fitter.result import LimbFacing, PictureFit
+from fitter.result import PictureFit
 from fitter.vocabulary.choices import Cues, Facing, ViewKind
 from fitter.vocabulary.measurements import STATURE
-from fitter.vocabulary.outcomes import FacingSource, Outcome, Verdict
+from fitter.vocabulary.outcomes import FacingSource, LimbFacing, Outcome, Verdict
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,7 +128,7 @@ def limb_facings(
                 facing=facing,
                 source=source,
                 ambiguous=bool(others) and min(others) - energy < AMBIGUOUS_NATS,
-                alternative_energy=min(others) if others else None,
+                alternative_nats=round(min(others) - energy, 2) if others else None,
             )
         )
     return tuple(facings)

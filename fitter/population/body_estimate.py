@@ -9,32 +9,12 @@ from scipy.special import chdtrc
 from fitter.arrays import Shape, Vertices
 from fitter.energies.shape_terms import height_extrapolation
 from fitter.measurement.anthropometry import measure
-from fitter.measurement.definitions import INTERVAL_SD, Measurement
+from fitter.measurement.definitions import Measurement
 from fitter.population.conditional_shape import MeasuredPopulation, height_warnings
 from fitter.population.known import conditioned_population
 from fitter.remarks import FitWarning
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EstimatedMeasurement:
-    """A measurement of the estimated body.
-
-    Attributes
-    ----------
-    measurement
-        Its value and, as standard error, how much people like this differ in it.
-    low, high
-        95 % of the people about whom the same is known lie between these.
-    given
-        Whether it was known.
-    """
-
-    measurement: Measurement
-    low: float
-    high: float
-    given: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,7 +28,7 @@ class BodyEstimate:
     canonical_vertices
         In the canonical pose, body frame, metres.
     measurements
-        In the order of the definitions.
+        In the order of the definitions; the standard error is how much people like this differ.
     plausibility
         Share of the population whose same measurements are together at least as unusual; 1 if
         nothing was known.
@@ -58,7 +38,7 @@ class BodyEstimate:
 
     shape: Shape
     canonical_vertices: Vertices
-    measurements: tuple[EstimatedMeasurement, ...]
+    measurements: tuple[Measurement, ...]
     plausibility: float
     warnings: tuple[FitWarning, ...]
 
@@ -68,9 +48,9 @@ def estimate_body(
 ) -> BodyEstimate:
     """Estimate a body from its known measurements, from none to all of them.
 
-    Intervals are the population's spread given what is known, in the model's own terms (a Gaussian,
-    linearised at the estimate): how people differ who agree in what was given. They do not include
-    the error of the model itself, but are wider where nobody surveyed was of the height
+    Standard errors are the population's spread given what is known, in the model's own terms (a
+    Gaussian, linearised at the estimate): how people differ who agree in what was given. They do
+    not include the error of the model itself, but are wider where nobody surveyed was of the height
     (:func:`fitter.energies.shape_terms.height_extrapolation`).
 
     Raises
@@ -96,18 +76,8 @@ def estimate_body(
         shape=conditioned.shape,
         canonical_vertices=population.body.canonical.at(conditioned.shape),
         measurements=tuple(
-            _estimated(each, spreads[each.name], given=each.name in known) for each in measurements
+            replace(each, standard_error=spreads[each.name]) for each in measurements
         ),
         plausibility=float(chdtrc(len(known), conditioned.squared_distance)) if known else 1.0,
         warnings=height_warnings(population, height_cm / 100.0),
-    )
-
-
-def _estimated(measurement: Measurement, spread: float, *, given: bool) -> EstimatedMeasurement:
-    margin = INTERVAL_SD * spread
-    return EstimatedMeasurement(
-        measurement=replace(measurement, standard_error=spread),
-        low=max(measurement.value - margin, 0.0),
-        high=measurement.value + margin,
-        given=given,
     )

@@ -1,6 +1,9 @@
 """Words of a result."""
 
+from dataclasses import dataclass
 from enum import StrEnum
+
+from fitter.vocabulary.choices import Facing
 
 
 class Outcome(StrEnum):
@@ -62,3 +65,19 @@ class Severity(StrEnum):
 
     BLOCKS = "blocks"
     HARMS = "harms"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimbFacing:
+    """Resolution of a limb's depth ambiguity (section 3.1).
+
+    ``alternative_nats`` is by how much the best body or reading of the clicks with the limb facing
+    the other way is less likely (the difference of two negative log-likelihoods), null where there
+    is none worth mentioning; ``ambiguous`` says that the two are close.
+    """
+
+    limb: str
+    facing: Facing
+    source: FacingSource
+    ambiguous: bool
+    alternative_nats: float | None

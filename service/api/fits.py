@@ -1,6 +1,5 @@
 """Fits: list, look at, follow, cancel and erase them; their requests, results and files."""
 
-import hashlib
 from functools import partial
 from typing import Annotated, Final
 from uuid import UUID
@@ -12,7 +11,7 @@ from api_schemas.fit import FitRequest
 from api_schemas.jobs import Fit, FitPage, JobState
 from api_schemas.labels import Label
 from api_schemas.problems import Problem, problem
-from api_schemas.results import FitResult, ResultPart
+from api_schemas.results import FitResult
 from service.api.context import Context
 from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
 from service.api.files import (
@@ -35,7 +34,6 @@ from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
 from service.jobs.records import ACTIVE, TERMINAL, JobRecord
 from service.representation.jobs import FITS, POLL_AFTER_S, represent
-from service.representation.results import result_json
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
@@ -186,19 +184,14 @@ def get_fit_request(record: Found, context: Context, if_none_match: IfNoneMatch 
 def get_fit_result(
     record: Found,
     context: Context,
-    include: Annotated[
-        list[ResultPart] | None,
-        Query(description="`stages`: the body after each stage of the fit, some 70 kB more."),
-    ] = None,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Return measurements, cameras, pose, shape, light, what was assumed, and the files' names."""
     document = record.files.get(RESULT)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    stored = stored_content(context.blobs, record.id, document)
-    content = result_json(stored, included=frozenset(include or ()))
-    return answer_document(content, hashlib.sha256(content).hexdigest(), if_none_match)
+    content = stored_content(context.blobs, record.id, document)
+    return answer_document(content, document.digest, if_none_match)
 
 
 @ROUTER.get(

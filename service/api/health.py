@@ -17,7 +17,7 @@ from fastapi import APIRouter, Request, Response
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
 from api_schemas.problems import problem
-from api_schemas.service import Live, Ready
+from api_schemas.service import Health
 from service.api.context import Context, Parts
 from service.api.problems import ProblemError, documented
 from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
@@ -40,19 +40,19 @@ SILENT: Final = {
 }
 
 
-@ROUTER.get("/healthz/live", response_model=Live, summary="The process answers")
-async def get_liveness() -> Live:
+@ROUTER.get("/healthz/live", response_model=Health, summary="The process answers")
+async def get_liveness() -> Health:
     """Answer."""
-    return Live()
+    return Health(status="live")
 
 
 @ROUTER.get(
     "/healthz/ready",
-    response_model=Ready,
+    response_model=Health,
     summary="A fit can be accepted and finished",
     responses=documented("not-ready"),
 )
-async def get_readiness(request: Request) -> Ready:
+async def get_readiness(request: Request) -> Health:
     """Check that database and storage can be written and a worker is alive and able to work.
 
     Answered within two seconds: a database or a storage that says nothing for so long is not
@@ -92,7 +92,7 @@ class Look:
 
     began: float
     at: str = "database"
-    answer: asyncio.Future[Ready] = field(default_factory=asyncio.Future[Ready])
+    answer: asyncio.Future[Health] = field(default_factory=asyncio.Future[Health])
 
 
 class Readiness:
@@ -100,7 +100,7 @@ class Readiness:
 
     def __init__(
         self,
-        check: Callable[[Look], Ready],
+        check: Callable[[Look], Health],
         *,
         answer_within_s: float = ANSWER_WITHIN_S,
         served_again_s: float = SERVED_AGAIN_S,
@@ -114,7 +114,7 @@ class Readiness:
         """The look that is being made, or was made last."""
         self._ended = 0.0
 
-    async def ready(self) -> Ready:
+    async def ready(self) -> Health:
         """Return within two seconds, whatever database and storage do.
 
         Raises
@@ -153,14 +153,14 @@ class Readiness:
 
     def _make(self, look: Look, loop: asyncio.AbstractEventLoop) -> None:
         try:
-            outcome: Ready | Exception = self._check(look)
+            outcome: Health | Exception = self._check(look)
         except Exception as error:
             outcome = error
         # Nobody asks any more once the loop is closed.
         with contextlib.suppress(RuntimeError):
             loop.call_soon_threadsafe(self._end, look, outcome)
 
-    def _end(self, look: Look, outcome: Ready | Exception) -> None:
+    def _end(self, look: Look, outcome: Health | Exception) -> None:
         self._ended = self._monotonic()
         if isinstance(outcome, Exception):
             look.answer.set_exception(outcome)
@@ -170,10 +170,10 @@ class Readiness:
             look.answer.set_result(outcome)
 
 
-def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Ready]:
+def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Health]:
     """What a look is made at: disk, database, storage and workers."""
 
-    def check(look: Look) -> Ready:
+    def check(look: Look) -> Health:
         # First: a database on a full disk cannot be written, and would be reported as unavailable.
         if not disk.has_room_for():
             raise not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
@@ -185,7 +185,7 @@ def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], 
         able = sum(worker.is_ready for worker in workers)
         if able == 0:
             raise not_ready(code="no-worker", detail=_why_none(workers))
-        return Ready(workers=able, queued=engine.queued())
+        return Health(status="ready", workers=able, queued=engine.queued())
 
     return check
 

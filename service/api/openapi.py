@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
@@ -192,8 +193,9 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     document["x-limits"] = _LIMITS
     _tell_defaults(schemas)
     _drop_titles(schemas)
+    document |= _plain(document, _named_once(document))
     document["components"] = {
-        "schemas": dict(sorted(schemas.items())),
+        "schemas": dict(sorted(document["components"]["schemas"].items())),
         "securitySchemes": _SECURITY,
         "responses": documented_responses(json.dumps(document["paths"])),
     }
@@ -217,6 +219,34 @@ def _tell_defaults(schemas: dict[str, Any]) -> None:
             if isinstance(value, (str, float, bool)):
                 shown = value if isinstance(value, str) else json.dumps(value)
                 field["description"] = f"{field.get('description', '')} Default `{shown}`.".strip()
+
+
+def _named_once(document: dict[str, Any]) -> dict[str, Any]:
+    """Take out the lists of words that one place alone refers to, by their names."""
+    references = Counter(_REFERENCE.findall(json.dumps(document)))
+    schemas: dict[str, Any] = document["components"]["schemas"]
+    names = [name for name in schemas if "enum" in schemas[name] and references[name] == 1]
+    return {name: schemas.pop(name) for name in names}
+
+
+def _plain(value: Any, words: Mapping[str, Any]) -> Any:
+    """Write lists of words where they are used, and what all items of a tuple are.
+
+    Generators make a type of each name, and few know `prefixItems`.
+    """
+    if isinstance(value, list):
+        return [_plain(each, words) for each in cast("list[Any]", value)]
+    if not isinstance(value, dict):
+        return value
+    plain = {name: _plain(each, words) for name, each in cast("dict[str, Any]", value).items()}
+    name = str(plain.get("$ref", "")).rpartition("/")[2]
+    if name in words:
+        del plain["$ref"]
+        return words[name] | plain
+    if "prefixItems" in plain:
+        kinds = plain["prefixItems"]
+        plain["items"] = kinds[0] if all(kind == kinds[0] for kind in kinds) else {}
+    return plain
 
 
 def _drop_titles(schemas: Any) -> None:
@@ -253,6 +283,8 @@ def _complete_operation(operation: dict[str, Any]) -> None:
         if "$ref" in answer:
             # FastAPI adds a description of its own.
             answer.pop("description", None)
+    # What generators take for the answer's type and for what to ask for is the first of all.
+    operation["responses"] = dict(sorted(operation["responses"].items()))
 
 
 def _with_examples(operation: dict[str, Any]) -> Iterator[tuple[Examples, dict[str, Any]]]:

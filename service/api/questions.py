@@ -12,16 +12,15 @@ from api_schemas.problems import FieldProblem, problem
 from api_schemas.questions import (
     BodyEstimate,
     BodyRequest,
-    ImageSize,
     InitialPose,
     InitialPoseRequest,
     PointsProposal,
     PointsRequest,
 )
 from api_schemas.service import BodyModels
-from service.api.context import ApiContext, Context
+from service.api.context import Context
 from service.api.files import BINARY, AcceptHeader, not_acceptable, preferred
-from service.api.images import image_content, known_image
+from service.api.images import image_content
 from service.api.problems import ProblemError, documented
 from service.api.requests import (
     JSON,
@@ -35,7 +34,7 @@ from service.api.requests import (
     read_json_or_form,
 )
 from service.estimates import questions
-from service.estimates.questions import ANSWER, FILE, BodyTask, InitialPoseTask
+from service.estimates.questions import ANSWER, FILE, BodyTask
 from service.jobs.inputs import IMAGE
 from service.representation.csv_tables import CSV, measurements_csv
 from service.representation.formats import GLB, MESH_FORMATS
@@ -143,34 +142,17 @@ async def estimate_initial_pose(request: Request, context: Context) -> Response:
     """Return pose, camera and outline of the body a fit would begin from.
 
     With how far each click is from it, and the limbs of which the clicks do not say whether they
-    come towards the camera: say so in `limb_facing`. The picture is not looked at; its size is
-    needed, and the focal length its EXIF data name if it was uploaded.
+    come towards the camera: say so in `limb_facing`. The picture is not looked at: its size is
+    needed, and its focal length, as the answer to its upload has it, if it is known.
     """
     asked = (await read_json(request, InitialPoseRequest)).asked
-    size, exif_focal_length_35mm = await _picture(context, asked)
-    points = checked_points(asked.points, asked.format, width=size.width, height=size.height)
-    task = InitialPoseTask(
-        subject=asked.model_copy(update={"points": points, "format": PointsFormat.NAMED}),
-        width=size.width,
-        height=size.height,
-        exif_focal_length_35mm=exif_focal_length_35mm,
-    )
-    parts = await context.estimators.answer(questions.INITIAL_POSE, task)
-    return Response(parts[ANSWER], media_type=JSON, headers=NOT_KEPT)
-
-
-async def _picture(
-    context: ApiContext, asked: InitialPoseRequest
-) -> tuple[ImageSize, float | None]:
-    """The picture's size and the 35 mm equivalent it records, if known."""
-    if asked.image_id is not None:
-        record = await run_in_threadpool(known_image, context, asked.image_id, field="image_id")
-        return ImageSize(width=record.width, height=record.height), record.focal_length_35mm
     size, most = asked.image_size, context.settings.max_pixels
-    assert size is not None, "the type wants exactly one of the two"
     if size.width * size.height > most:
         raise refused(too_many_pixels("image_size", size.width, size.height, most))
-    return size, None
+    points = checked_points(asked.points, asked.format, width=size.width, height=size.height)
+    named = asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
+    parts = await context.estimators.answer(questions.INITIAL_POSE, named)
+    return Response(parts[ANSWER], media_type=JSON, headers=NOT_KEPT)
 
 
 @ROUTER.post(
@@ -192,17 +174,16 @@ async def estimate_body(
 ) -> Response:
     """Return the most probable body of a gender and of any known measurements.
 
-    With its measurements, between which values 95 % of such people lie, and the mesh if asked for:
-    by `include_glb` in the JSON, by `Accept: model/gltf-binary`, `model/obj`, `model/ply` or
-    `model/stl` as the file itself. `Accept: text/csv` answers with the
-    measurements as a table. Of types wanted alike the one named first counts.
+    With its measurements, between which values 95 % of such people lie. As `Accept` asks the answer
+    is the mesh (`model/gltf-binary`, `model/obj`, `model/ply`, `model/stl`) or the measurements as
+    a table (`text/csv`). Of types wanted alike the one named first counts.
     """
     wanted = preferred(accept, _FORMS_OF_A_BODY)
     if wanted is None:
         raise not_acceptable(accept, what="A body", offered=_FORMS_OF_A_BODY)
     asked = (await read_json(request, BodyRequest)).asked
     as_mesh = wanted == GLB or wanted in _BY_MEDIA_TYPE
-    task = BodyTask(request=asked, with_glb=as_mesh or (asked.include_glb and wanted == JSON))
+    task = BodyTask(request=asked, with_glb=as_mesh)
     parts = await context.estimators.answer(questions.BODY, task)
     content, glb = parts[ANSWER], parts[FILE]
     if wanted == GLB:
@@ -212,10 +193,6 @@ async def estimate_body(
     elif wanted == CSV:
         estimate = BodyEstimate.model_validate_json(content)
         content = measurements_csv(estimate.measurements)
-    elif asked.include_glb:
-        estimate = BodyEstimate.model_validate_json(content)
-        with_mesh = estimate.model_copy(update={"glb": base64.b64encode(glb).decode()})
-        content = with_mesh.model_dump_json().encode()
     return Response(content, media_type=wanted, headers=NOT_KEPT | {"Vary": "Accept"})
 
 

@@ -180,12 +180,7 @@ def print_result(result: FitResult, *, truth: Mapping[str, float] | None = None)
 
 
 def _table(result: FitResult, truth: Mapping[str, float]) -> Iterator[str]:
-    unshaded = {
-        each.name: each.value
-        for stage in result.stages
-        if stage.name == UNSHADED
-        for each in stage.measurements
-    }
+    unshaded = next((stage.measurements for stage in result.stages if stage.name == UNSHADED), {})
     yield f"Measurements, {result.gender}, {result.height_m:.3f} m"
     yield f"{'':34}{'SE':>8}{result.cues:>8}{'± (1 sd)':>10}" + (
         "   truth   error" if truth else ""

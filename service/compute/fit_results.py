@@ -1,8 +1,8 @@
 """What a fit has found, translated to the wire."""
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import cast, overload
+from collections.abc import Collection, Mapping, Sequence
+from typing import cast
 
 import numpy as np
 
@@ -11,10 +11,9 @@ from fitter.capture.finding import Box, Finding
 from fitter.measurement.definitions import Measurement
 from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
-from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
-from fitter.result import FitResult, FitStage, FittedView, LimbFacing
+from fitter.result import FitResult, FitStage, FittedView
 from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.points import PointName
@@ -43,7 +42,7 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         assumptions=assumption_results(result.assumptions),
         warnings=warning_results(result.warnings),
         differences=result.differences,
-        stages=tuple(_stage(stage, result.given, part_names) for stage in result.stages),
+        stages=tuple(_stage(stage) for stage in result.stages),
         stage_seconds={name: round(each, 3) for name, each in result.stage_seconds.items()},
         files=(),
         views=tuple(_view(view, part_names) for view in result.views),
@@ -56,15 +55,15 @@ def _view(view: FittedView, part_names: Sequence[str]) -> wire.ViewResult:
         view=view.kind,
         outcome=found.outcome,
         verdict=found.verdict,
-        camera=fitted_camera(view.camera, person.tilt),
-        image_camera=fitted_camera(person.camera, person.tilt),
+        camera=camera_result(view.camera),
+        image_camera=camera_result(person.camera),
         focal_length_source=view.focal_length_source,
         body=body_result(person.body, part_names),
         light=None if person.light is None else _light(person.light),
         reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
         silhouette_overlap=round(found.silhouette_overlap, 4),
-        stance=_stance(person),
-        limb_facing=tuple(_limb_facing(facing) for facing in view.limb_facing),
+        tilt=None if person.tilt is None else _tilt(person.tilt),
+        limb_facing=view.limb_facing,
         findings=finding_results(view.findings),
         clothing=tuple(_worn(each) for each in found.clothing),
         assumptions=assumption_results(view.assumptions),
@@ -72,27 +71,11 @@ def _view(view: FittedView, part_names: Sequence[str]) -> wire.ViewResult:
     )
 
 
-def _stage(stage: FitStage, given: Sequence[str], part_names: Sequence[str]) -> wire.Stage:
+def _stage(stage: FitStage) -> wire.Stage:
     return wire.Stage(
         name=stage.name,
         energies=_energies(stage.energies),
-        measurements=tuple(
-            wire.StageMeasurement(
-                name=each.name,
-                value=round(each.value, 2),
-                unit=each.unit,
-                standard_error=_rounded_error(each.standard_error),
-                given=each.name in given,
-            )
-            for each in stage.measurements
-        ),
-        views=tuple(
-            wire.StageBody(
-                silhouette_overlap=round(body.silhouette_overlap, 4),
-                body=body_result(body.body, part_names),
-            )
-            for body in stage.bodies
-        ),
+        measurements={each.name: round(each.value, 2) for each in stage.measurements},
     )
 
 
@@ -162,34 +145,21 @@ def camera_result(camera: Camera) -> wire.CameraResult:
     )
 
 
-def fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
-    """Translate a camera with how it was held."""
-    pitch, roll, errors = (None, None, (None, None))
-    if tilt is not None:
-        pitch, roll, errors = tilt.pitch, tilt.roll, tilt.standard_errors
-    return wire.FittedCameraResult(
-        **camera_result(camera).model_dump(),
-        pitch_deg=_degrees(pitch),
-        pitch_standard_error_deg=_degrees(errors[0]),
-        roll_deg=_degrees(roll),
-        roll_standard_error_deg=_degrees(errors[1]),
+def _tilt(tilt: CameraTilt) -> wire.TiltResult:
+    pitch_error, roll_error = tilt.standard_errors
+    return wire.TiltResult(
+        pitch_deg=_degrees(tilt.pitch),
+        pitch_standard_error_deg=_degrees(pitch_error),
+        roll_deg=_degrees(tilt.roll),
+        roll_standard_error_deg=_degrees(roll_error),
+        stance=tilt.stance,
+        stances={kind: round(each, 4) for kind, each in tilt.stances.items()},
     )
 
 
-@overload
-def _degrees(radians: float) -> float: ...
-@overload
-def _degrees(radians: float | None) -> float | None: ...
-def _degrees(radians: float | None) -> float | None:
+def _degrees(radians: float) -> float:
     """Fine enough that what is turned by it at some metres' distance is where the files have it."""
-    return None if radians is None else round(math.degrees(radians), 5)
-
-
-def _stance(person: FittedPerson) -> wire.StanceResult | None:
-    if person.tilt is None:
-        return None
-    probabilities = {kind: round(each, 4) for kind, each in person.tilt.stances.items()}
-    return wire.StanceResult(kind=person.tilt.stance, probabilities=probabilities)
+    return round(math.degrees(radians), 5)
 
 
 def _vector(values: np.ndarray) -> wire.Vector:
@@ -213,17 +183,14 @@ def _energies(energies: Mapping[str, float]) -> dict[str, float]:
 def body_result(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
     """Translate pose, position and shape."""
     return wire.BodyResult(
-        pose=tuple(
-            wire.PartRotation(part=part, rotation=_vector(rotation))
-            for part, rotation in zip(part_names, body.pose, strict=True)
-        ),
+        pose={part: _vector(turn) for part, turn in zip(part_names, body.pose, strict=True)},
         translation_m=_vector(body.translation),
         shape=rounded_parameters(body.shape),
     )
 
 
-def _light(light: Light) -> wire.LightResult:
-    return wire.LightResult(
+def _light(light: Light) -> wire.Light:
+    return wire.Light(
         kind=light.kind,
         azimuth_deg=_degrees(light.azimuth),
         elevation_deg=_degrees(light.elevation),
@@ -241,7 +208,7 @@ def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
 
 
 def measurement_results(
-    measurements: Sequence[Measurement], given: Sequence[str]
+    measurements: Sequence[Measurement], given: Collection[str]
 ) -> tuple[wire.Measurement, ...]:
     """Translate measurements, to a tenth of a millimetre and to 10 grams.
 
@@ -252,32 +219,17 @@ def measurement_results(
 
 def _measurement(measurement: Measurement, *, is_given: bool) -> wire.Measurement:
     value = round(measurement.value, 2)
-    error = _rounded_error(measurement.standard_error)
+    error = measurement.standard_error
+    # To a hundredth of a millimetre, so that none but those of exact values are zero.
+    error = None if error is None else round(error, 3)
     return wire.Measurement(
         name=measurement.name,
         value=value,
         unit=measurement.unit,
         standard_error=error,
-        low=None if error is None else round(value - WITHIN_95 * error, 2),
+        low=None if error is None else round(max(value - WITHIN_95 * error, 0.0), 2),
         high=None if error is None else round(value + WITHIN_95 * error, 2),
         given=is_given,
         definition=measurement.definition,
         source=measurement.source,
-    )
-
-
-def _rounded_error(error: float | None) -> float | None:
-    """To a hundredth of a millimetre, so that none but those of exact values are zero."""
-    return None if error is None else round(error, 3)
-
-
-def _limb_facing(facing: LimbFacing) -> wire.LimbFacing:
-    return wire.LimbFacing(
-        limb=facing.limb,
-        facing=facing.facing,
-        source=facing.source,
-        ambiguous=facing.ambiguous,
-        alternative_energy=None
-        if facing.alternative_energy is None
-        else round(facing.alternative_energy, 2),
     )

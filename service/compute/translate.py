@@ -79,8 +79,6 @@ def _view(asked: ViewRequest, cues: Cues, sent: SentPicture[bytes]) -> View:
         cues=cues,
         clothing=clothing,
         complete_clicks=asked.are_points_completed,
-        segmentation=asked.segmentation,
-        slant_hints=asked.slant_hints,
         light=LightGuess(
             kind=asked.light.kind,
             azimuth=_radians(asked.light.azimuth_deg),

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from api_schemas.problems import FieldProblem
-from api_schemas.questions import BodyRequest, InitialPose, PointsRequest
+from api_schemas.questions import BodyRequest, InitialPose, InitialPoseRequest, PointsRequest
 from fitter.detection.detector import Detector, installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
@@ -23,7 +23,6 @@ from service.estimates.questions import (
     BodyTask,
     ConversionTask,
     EstimatedBody,
-    InitialPoseTask,
     ProposedPoints,
     estimate_tasks,
 )
@@ -41,12 +40,13 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     """Estimate a body from measurements."""
     gender = task.request.gender
     fittable = prepared_model(gender, models=models)
+    known = _known(task.request)
     try:
-        estimate = estimate_body(fittable.population, _known(task.request))
+        estimate = estimate_body(fittable.population, known)
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
     model = fittable.operators.model
-    answer = translate.body_estimate(estimate, model)
+    answer = translate.body_estimate(estimate, model, known)
     glb = b""
     if task.with_glb:
         glb = plain_glb(
@@ -66,18 +66,16 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     return EstimatedBody(estimate=answer, glb=glb)
 
 
-def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
-    """Pose the mean person to match clicks."""
-    asked = person(task.subject)
+def initial_pose(asked: InitialPoseRequest, models: Path | None) -> InitialPose:
+    """Pose the mean person to match clicks, which are named."""
     fittable = prepared_model(asked.gender, models=models)
     try:
         initial = initial_body(
-            asked,
-            translate.subject_view(task.subject),
+            person(asked),
+            translate.subject_view(asked),
             fittable,
-            width=task.width,
-            height=task.height,
-            exif_focal_length_35mm=task.exif_focal_length_35mm,
+            width=asked.image_size.width,
+            height=asked.image_size.height,
         )
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error

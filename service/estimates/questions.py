@@ -40,15 +40,6 @@ class BodyTask(WireModel):
     with_glb: bool
 
 
-class InitialPoseTask(WireModel):
-    """Pose the mean person to match clicks, named pixels of a picture of this size."""
-
-    subject: InitialPoseRequest
-    width: int
-    height: int
-    exif_focal_length_35mm: float | None
-
-
 class ConversionTask(WireModel):
     """Write the body of the GLB file in the format of this ending."""
 
@@ -74,7 +65,7 @@ class ProposedPoints:
 def estimate_tasks(
     *,
     body: Callable[[BodyTask, Path | None], EstimatedBody],
-    initial_pose: Callable[[InitialPoseTask, Path | None], InitialPose],
+    initial_pose: Callable[[InitialPoseRequest, Path | None], InitialPose],
     points: Callable[..., ProposedPoints],
     conversion: Callable[[ConversionTask, bytes], bytes],
     jpeg: Callable[..., bytes],
@@ -86,7 +77,7 @@ def estimate_tasks(
         return _answered(found.estimate, found.glb)
 
     def initial_pose_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
-        asked = InitialPoseTask.model_validate_json(parts[QUESTION])
+        asked = InitialPoseRequest.model_validate_json(parts[QUESTION])
         return _answered(initial_pose(asked, setup.models))
 
     def points_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:

@@ -1,7 +1,7 @@
 """Pure translations between the wire types of estimates and the fitter's, both ways."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import cast
 
 import numpy as np
@@ -9,7 +9,7 @@ from jaxtyping import Float, UInt8
 from PIL import Image
 
 from api_schemas import questions as wire
-from api_schemas.points import PointSource
+from api_schemas.points import Point, PointSource
 from fitter.body.model import BodyModel
 from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.initial_body import InitialBody
@@ -17,13 +17,14 @@ from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
 from fitter.request import View
 from fitter.vocabulary.choices import Gender
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
 from fitter.vocabulary.points import PointName
 from service.compute.fit_results import (
     assumption_results,
     body_result,
     camera_result,
     finding_results,
+    measurement_results,
     rounded_parameters,
     warning_results,
 )
@@ -57,15 +58,7 @@ def initial_pose(
         outline=tuple(tuple(_pixel(corner) for corner in loop) for loop in initial.outline),
         points={name: _pixel(place) for name, place in initial.landmarks.items()},
         residual_px={name: float(value) for name, value in initial.residual_px.items()},
-        limbs=tuple(
-            wire.LimbReading(
-                limb=reading.limb,
-                facing=reading.facing,
-                ambiguous=reading.ambiguous,
-                alternative_nats=reading.alternative_nats,
-            )
-            for reading in initial.limbs
-        ),
+        limbs=initial.limbs,
         assumptions=assumption_results(initial.assumptions),
         warnings=warning_results(initial.warnings),
     )
@@ -86,13 +79,11 @@ def capture_question(asked: wire.PointsRequest) -> CaptureQuestion:
 
 def points_proposal(found: Proposal) -> wire.PointsProposal:
     """Translate a proposal; the caller adds its mask."""
-    points: dict[PointName, wire.ProposedPoint] = {
-        cast("PointName", name): _proposed_point(point) for name, point in found.points.items()
-    }
+    points = {cast("PointName", name): _point(point) for name, point in found.points.items()}
     checked = found.checked
     return wire.PointsProposal(
-        image_size=wire.PictureSize(width=found.width, height=found.height),
-        persons=tuple(wire.FoundPerson(box=each.box, score=each.score) for each in found.persons),
+        image_size=wire.ImageSize(width=found.width, height=found.height),
+        persons=found.persons,
         person=found.person,
         points=points,
         doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
@@ -123,26 +114,15 @@ def jpeg(pixels: UInt8[np.ndarray, "h w 3"]) -> bytes:
     return encoded.getvalue()
 
 
-def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire.BodyEstimate:
-    """Translate an estimated body; the caller adds its file."""
-    measurements = tuple(
-        wire.EstimatedMeasurement(
-            name=each.measurement.name,
-            value=round(each.measurement.value, 2),
-            unit=each.measurement.unit,
-            standard_error=round(each.measurement.standard_error or 0.0, 3),
-            low=round(each.low, 2),
-            high=round(each.high, 2),
-            given=each.given,
-            definition=each.measurement.definition,
-            source=each.measurement.source,
-        )
-        for each in estimate.measurements
-    )
+def body_estimate(
+    estimate: BodyEstimate, model: BodyModel, given: Collection[str]
+) -> wire.BodyEstimate:
+    """Translate an estimated body, of which the measurements of these names were given."""
+    measurements = measurement_results(estimate.measurements, given)
     stature_cm = next(each.value for each in measurements if each.name == STATURE)
     return wire.BodyEstimate(
         gender=Gender(model.gender),
-        height_m=round(stature_cm / 100.0, 4),
+        height_m=round(stature_cm / CENTIMETRES_PER_METRE, 4),
         shape=rounded_parameters(estimate.shape),
         measurements=measurements,
         plausibility=round(estimate.plausibility, 4),
@@ -151,15 +131,14 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire.BodyEstimate
     )
 
 
-def _proposed_point(point: ProposedPoint) -> wire.ProposedPoint:
+def _point(point: ProposedPoint) -> Point:
     x, y = _pixel(np.array([point.click.x, point.click.y]))
-    return wire.ProposedPoint(
+    return Point(
         x=x,
         y=y,
         visibility=1 if point.click.occluded else SEEN,
         source=PointSource.PROPOSAL,
         confidence=round(point.visibility, 3),
-        expected_error_px=round(point.expected_error_px, 2),
     )
 
 

@@ -12,7 +12,6 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from api_schemas.questions import EstimatedMeasurement
 from api_schemas.results import Measurement
 
 FORMULAS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
@@ -51,10 +50,9 @@ class _Measured(BaseModel):
     measurements: tuple[Measurement, ...]
 
 
-def measurements_csv(measurements: Sequence[Measurement | EstimatedMeasurement]) -> bytes:
+def measurements_csv(measurements: Sequence[Measurement]) -> bytes:
     """One line per measurement, one column per field; an unknown standard error stays empty."""
-    fields = (type(measurements[0]) if measurements else Measurement).model_fields
-    return models_csv(measurements, fields)
+    return models_csv(measurements, Measurement.model_fields)
 
 
 def measurements_csv_of(result: bytes) -> bytes:

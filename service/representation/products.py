@@ -4,7 +4,7 @@ from typing import Final
 from uuid import UUID
 
 from api_schemas.jobs import JobState
-from api_schemas.products import Product, ProductDocument, ProductLinks
+from api_schemas.products import Product, ProductLinks, product_result
 from api_schemas.products.base import ProductKind
 from service.jobs.inputs import RESULT
 from service.jobs.records import JobRecord, StoredBlob
@@ -37,7 +37,7 @@ def represent_product(record: JobRecord, result: bytes | None) -> Product:
         state=record.state,
         progress=record.progress,
         problem=record.problem,
-        result=None if result is None else ProductDocument.model_validate_json(result),
+        result=None if result is None else product_result(result),
         links=ProductLinks(
             self=path,
             fit=fit_path(record.parent),

@@ -40,8 +40,8 @@ SHOWN_EVENTS = 4
 
 MOST_ITEMS = 4
 SHORTENED = 2
-ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "pose", "stages")
-MAPS = ("points", "residual_px")
+ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "stages")
+MAPS = ("points", "pose", "residual_px")
 """Objects whose names are many: the first is kept."""
 
 

@@ -157,8 +157,12 @@ def _estimates(
 ) -> None:
     known = person | {"points": points}
     for path, shown, asked, body in (
-        ("initial-poses", "standing", "uploaded-picture", known | {"image_id": image}),
-        ("initial-poses", "", "size-alone", known | {"image_size": {"width": 720, "height": 960}}),
+        (
+            "initial-poses",
+            "standing",
+            "points-and-size",
+            known | {"image_size": {"width": 720, "height": 960}},
+        ),
         ("points", "standing", "largest-person", {"image_id": image}),
         ("points", "", "person-and-mask", {"image_id": image, "person": 0, "mask": True}),
         (
@@ -174,7 +178,7 @@ def _estimates(
             "height-and-weight",
             {"gender": "female", "height_m": 1.68, "weight_kg": 64.5},
         ),
-        ("bodies", "", "girths", {"gender": "male", "measurements": GIRTHS, "include_glb": True}),
+        ("bodies", "", "girths", {"gender": "male", "measurements": GIRTHS}),
     ):
         recorder.ask(shown, "POST", f"/v1/{path}", asked_as=asked, json=body)
 

@@ -29,7 +29,7 @@ def null_errors(picture: TruePicture, known: Sequence[str]) -> dict[str, float]:
     true = {STATURE: 100.0 * person.height_m, **truth.measurements}
     told = {name: KnownMeasurement(value=true[name]) for name in known}
     found = {
-        each.measurement.name: each.measurement.value
+        each.name: each.value
         for each in estimate_body(PACKAGED.model(person.gender).population, told).measurements
     }
     return {key: found[key] - truth.measurements[key] for _, key, _ in MEASUREMENTS}

@@ -32,8 +32,8 @@ PRODUCTS: Mapping[str, dict[str, object]] = {
 
 GLB_FILES = (
     "fit/body_canonical.glb",
-    "fit/body_canonical_se.glb",
-    *(f"fit/views/{view}/body_posed{stage}.glb" for view in (0, 1) for stage in ("", "_se")),
+    "fit/views/0/body_posed.glb",
+    "fit/views/1/body_posed.glb",
     "texture/body_textured.glb",
     "albedo_texture/body_textured.glb",
     "pose/body_reposed.glb",

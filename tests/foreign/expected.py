@@ -4,7 +4,7 @@ Axes of the file, metres. Of an animation the body is the exact SCAPE body of th
 """
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -72,33 +72,24 @@ class _Results:
         """The person in the first picture."""
         return self.of("fit")["views"][0]
 
-    def before_shading(self) -> Sequence[Mapping[str, Any]]:
-        """The body in each picture as silhouette and edges left it."""
-        stages = self.of("fit")["stages"]
-        stage = next(each for each in stages if each["name"] == "SE")
-        return [each["body"] for each in stage["views"]]
-
     def shown(self, *frames: Vertices, **more: Any) -> Shown:
         counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
         return Shown(frames=frames, **(counts | more))
 
     def posed(
-        self, body: Mapping[str, Any], camera: Mapping[str, Any] | None = None, **more: Any
+        self, body: Mapping[str, Any], tilt: Mapping[str, Any] | None = None, **more: Any
     ) -> Shown:
         """A body under its camera, by default that of the first picture, upright."""
         parameters = _parameters(body)
         vertices = self.evaluator.vertices(parameters)
-        tilt = _tilt(camera or self.first()["image_camera"])
-        world = upright_frame(tilt, vertices=vertices, root=parameters.translation)
+        world = upright_frame(
+            _tilt(tilt or self.first()["tilt"]), vertices=vertices, root=parameters.translation
+        )
         return self.shown(world.points(vertices), cameras=1, **more)
 
     def in_view(self, number: int) -> Shown:
         view = self.of("fit")["views"][number]
-        return self.posed(view["body"], view["image_camera"])
-
-    def in_view_before_shading(self, number: int) -> Shown:
-        camera = self.of("fit")["views"][number]["image_camera"]
-        return self.posed(self.before_shading()[number], camera)
+        return self.posed(view["body"], view["tilt"])
 
     def textured(self, **more: Any) -> Shown:
         corners = len(self.model.uv)
@@ -116,7 +107,7 @@ class _Results:
 
     def turned_upright(self, body: BodyParameters) -> Shown:
         """Upright as the picture has it."""
-        turn = upright_turn(_tilt(self.first()["image_camera"]))
+        turn = upright_turn(_tilt(self.first()["tilt"]))
         return self.shown(_standing(self.evaluator.body_frame_vertices(body) @ turn.T))
 
     def animated(self, *, error: str, **more: Any) -> Shown:
@@ -138,16 +129,16 @@ def _prepared(gender: Gender) -> PreparedModel:
 
 def _parameters(body: Mapping[str, Any]) -> BodyParameters:
     return BodyParameters(
-        pose=np.array([each["rotation"] for each in body["pose"]]),
+        pose=np.array(list(body["pose"].values())),
         translation=np.array(body.get("translation_m", np.zeros(3))),
         shape=np.array(body["shape"]),
     )
 
 
-def _tilt(camera: Mapping[str, Any]) -> CameraTilt:
+def _tilt(found: Mapping[str, Any]) -> CameraTilt:
     return CameraTilt(
-        pitch=np.radians(camera["pitch_deg"]),
-        roll=np.radians(camera["roll_deg"]),
+        pitch=np.radians(found["pitch_deg"]),
+        roll=np.radians(found["roll_deg"]),
         covariance=np.eye(2),
         stances={},
     )
@@ -159,11 +150,8 @@ def _standing(vertices: Vertices) -> Vertices:
 
 _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["shape"]),
-    "fit/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
     "fit/views/0/body_posed.glb": lambda r: r.in_view(0),
     "fit/views/1/body_posed.glb": lambda r: r.in_view(1),
-    "fit/views/0/body_posed_se.glb": lambda r: r.in_view_before_shading(0),
-    "fit/views/1/body_posed_se.glb": lambda r: r.in_view_before_shading(1),
     "texture/body_textured.glb": lambda r: r.textured(),
     "albedo_texture/body_textured.glb": lambda r: r.textured(),
     "pose/body_reposed.glb": lambda r: r.dressed(

@@ -70,9 +70,9 @@ export class Maquette {
     return succeeded(await json<Fit>(await this.#call(fit.links.self, init)));
   }
 
-  /** What a fit has found; `stages` is empty unless it is asked for. */
-  async result(fit: Fit, asked: { readonly stages?: boolean } = {}): Promise<FitResult> {
-    return json(await this.#call(`${fit.links.self}/result${asked.stages ? "?include=stages" : ""}`));
+  /** What a fit has found. */
+  async result(fit: Fit): Promise<FitResult> {
+    return json(await this.#call(`${fit.links.self}/result`));
   }
 
   /** Have something made of a fit; `part` is what comes along, `{ bvh }`, `{ texture }` or `{ chart }`. */

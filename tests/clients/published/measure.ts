@@ -8,7 +8,6 @@ export async function measured(address: string, picture: Blob, other: Blob) {
   const fit = await maquette.fit(known, [picture], { onProgress: ({ state }) => states.push(state) });
   const found = await maquette.result(fit);
   const glb = await maquette.file(fit, "body_canonical.glb");
-  const whole = await maquette.result(fit, { stages: true });
   const posed = await maquette.product(fit, { kind: "pose", pose: "sitting" });
   const reposed = await maquette.file(posed, "body_reposed.glb");
 
@@ -25,7 +24,7 @@ export async function measured(address: string, picture: Blob, other: Blob) {
     states,
     waist: [found, { measurements }].map((each) => each.measurements[0]?.value),
     interval: [found.measurements[0]?.low, found.measurements[0]?.high],
-    stages: [found.stages.length, whole.stages.length],
+    stages: found.stages.length,
     views: seen.map(({ view }) => view),
     glb: await Promise.all([glb, reposed].map(async (each) => (await each.text()).slice(0, 4))),
     refused: [refused.status, refused.problem?.errors?.[0]?.field],

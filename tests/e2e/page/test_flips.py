@@ -124,7 +124,7 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
             "facing": facing,
             "source": "energy",
             "ambiguous": name == "right_shin",
-            "alternative_energy": None,
+            "alternative_nats": None,
         }
         for name, facing in found.items()
     ]

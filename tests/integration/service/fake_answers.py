@@ -9,28 +9,30 @@ import os
 import time
 from pathlib import Path
 
-from api_schemas.points import PointSource
+from api_schemas.points import Point, PointSource
 from api_schemas.problems import FieldProblem
 from api_schemas.questions import (
     BodyEstimate,
-    EstimatedMeasurement,
-    FoundPerson,
+    ImageSize,
     InitialPose,
-    LimbReading,
-    PictureSize,
+    InitialPoseRequest,
     PointsProposal,
     PointsRequest,
-    ProposedPoint,
 )
-from api_schemas.results import BodyResult, CameraResult, Finding, PartRotation
+from api_schemas.results import BodyResult, CameraResult, Finding, Measurement
 from fitter.vocabulary.choices import Facing
-from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
+from fitter.vocabulary.outcomes import (
+    FacingSource,
+    FocalLengthSource,
+    LimbFacing,
+    SeenFrom,
+    Severity,
+)
 from service.compute.tasks import ProblemError, UnusableInputError
 from service.estimates.questions import (
     BodyTask,
     ConversionTask,
     EstimatedBody,
-    InitialPoseTask,
     ProposedPoints,
     estimate_tasks,
 )
@@ -71,7 +73,7 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
             height_m=task.request.height_m or 1.7,
             shape=(0.0, 0.0),
             measurements=(
-                EstimatedMeasurement(
+                Measurement(
                     name="waist_girth_navel",
                     value=80.0,
                     unit="cm",
@@ -90,30 +92,35 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     )
 
 
-def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
+def initial_pose(asked: InitialPoseRequest, models: Path | None) -> InitialPose:
     del models
+    size = asked.image_size
     return InitialPose(
-        gender=task.subject.gender,
-        height_m=task.subject.height_m or 1.7,
+        gender=asked.gender,
+        height_m=asked.height_m or 1.7,
         camera=CameraResult(
-            focal_length_px=task.exif_focal_length_35mm or 700.0,
-            centre_x=task.width / 2,
-            centre_y=task.height / 2,
-            width=task.width,
-            height=task.height,
+            focal_length_px=700.0,
+            centre_x=size.width / 2,
+            centre_y=size.height / 2,
+            width=size.width,
+            height=size.height,
         ),
         focal_length_source=FocalLengthSource.ASSUMED,
         body=BodyResult(
-            pose=(PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),),
+            pose={"pelvis": (0.0, 0.0, 0.0)},
             translation_m=(0.0, 0.0, 3.0),
             shape=(0.0, 0.0),
         ),
         outline=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
         points={"nose": (1.0, 1.0)},
-        residual_px=dict.fromkeys(task.subject.points, 0.5),
+        residual_px=dict.fromkeys(asked.points, 0.5),
         limbs=(
-            LimbReading(
-                limb="left_shin", facing=Facing.TOWARD, ambiguous=True, alternative_nats=1.0
+            LimbFacing(
+                limb="left_shin",
+                facing=Facing.TOWARD,
+                source=FacingSource.PRIOR,
+                ambiguous=True,
+                alternative_nats=1.0,
             ),
         ),
         assumptions=(),
@@ -142,18 +149,17 @@ def points(
                 remedy="Leave it out.",
             )
         )
-    nose = ProposedPoint(
+    nose = Point(
         x=10.0 + person,
         y=20.0,
         visibility=2,
         source=PointSource.PROPOSAL,
         confidence=0.9,
-        expected_error_px=1.0,
     )
     return ProposedPoints(
         proposal=PointsProposal(
-            image_size=PictureSize(width=640, height=480),
-            persons=(FoundPerson(box=(0.0, 0.0, 64.0, 48.0), score=0.9),) * count,
+            image_size=ImageSize(width=640, height=480),
+            persons=((0.0, 0.0, 64.0, 48.0),) * count,
             person=person if count else None,
             points={"nose": nose} if count else {},
             doubtful=(),

@@ -7,12 +7,10 @@ from api_schemas.person import Person, UncertainMeasurement
 from api_schemas.results import (
     Assumption,
     BodyResult,
+    CameraResult,
     FitResult,
-    FittedCameraResult,
     Measurement,
-    PartRotation,
     Stage,
-    StageBody,
     ViewResult,
 )
 from fitter.vocabulary.choices import ViewKind
@@ -20,7 +18,7 @@ from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.jobs.inputs import BODY, BODY_POSED, OVERLAY, PERSON, SEGMENTATION, of_view
 
 BODY_RESULT = BodyResult(
-    pose=(PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),),
+    pose={"pelvis": (0.0, 0.0, 0.0)},
     translation_m=(0.0, 0.0, 3.0),
     shape=(0.0, 0.0),
 )
@@ -43,14 +41,7 @@ def fit_result(asked: FitRequest) -> FitResult:
         assumptions=(Assumption(quantity="height_m", value=1.7, reason="Unknown."),),
         warnings=(),
         differences=(),
-        stages=(
-            Stage(
-                name="SE",
-                energies={"total": 2.0},
-                measurements=(),
-                views=(StageBody(silhouette_overlap=0.9, body=BODY_RESULT),) * len(asked.views),
-            ),
-        ),
+        stages=(Stage(name="SE", energies={"total": 2.0}, measurements={"waist_girth": 81.0}),),
         stage_seconds={"observation": 0.1},
         files=(),
         views=tuple(_view(each.view) for each in asked.views),
@@ -67,16 +58,8 @@ def result_files(images: Sequence[bytes]) -> dict[str, bytes]:
 
 
 def _view(kind: ViewKind | None) -> ViewResult:
-    camera = FittedCameraResult(
-        focal_length_px=700.0,
-        centre_x=320.0,
-        centre_y=240.0,
-        width=640,
-        height=480,
-        pitch_deg=None,
-        pitch_standard_error_deg=None,
-        roll_deg=None,
-        roll_standard_error_deg=None,
+    camera = CameraResult(
+        focal_length_px=700.0, centre_x=320.0, centre_y=240.0, width=640, height=480
     )
     return ViewResult(
         view=kind,
@@ -89,7 +72,7 @@ def _view(kind: ViewKind | None) -> ViewResult:
         light=None,
         reflectance=None,
         silhouette_overlap=0.9,
-        stance=None,
+        tilt=None,
         limb_facing=(),
         findings=(),
         clothing=(),

@@ -1,12 +1,9 @@
 """Bodies and initial poses over HTTP: answered at once, refused by field, away for a moment."""
 
-import base64
-
 import pytest
 
 from api_schemas.questions import BodyEstimate, InitialPose
 from tests.integration.service.fake_answers import GLB
-from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     POINTS,
     REQUEST,
@@ -35,12 +32,9 @@ def test_a_body_comes_with_its_measurements(service: Service):
     estimate = BodyEstimate.model_validate_json(answer.content)
     assert (estimate.gender, estimate.height_m) == ("female", 1.62)
     assert estimate.measurements
-    assert estimate.glb is None
 
 
-def test_a_body_s_file_comes_within_the_answer_or_as_the_answer(service: Service):
-    within = service.client.post("/v1/bodies", json={"gender": "male", "include_glb": True})
-    assert base64.b64decode(within.json()["glb"]) == GLB
+def test_a_body_s_file_is_the_answer_where_it_is_accepted_alone(service: Service):
     alone = service.client.post(
         "/v1/bodies", json={"gender": "male"}, headers={"Accept": "model/gltf-binary"}
     )
@@ -86,23 +80,10 @@ def test_detectors_points_reach_the_estimator_by_name(service: Service):
     assert {"nose", "left_wrist", "right_ankle"} <= set(pose.json()["residual_px"])
 
 
-def test_an_uploaded_picture_gives_its_size_and_its_focal_length(service: Service):
-    upload = service.client.post(
-        "/v1/images", files={"image": ("p.png", scripted_image(width=800), "image/png")}
-    )
-    request = SUBJECT | {"image_id": upload.json()["id"]}
-    pose = InitialPose.model_validate_json(
-        service.client.post("/v1/initial-poses", json=request).content
-    )
-    assert (pose.camera.width, pose.camera.height) == (800, 480)
-
-
 @pytest.mark.parametrize(
     ("changes", "field", "code"),
     [
-        ({"image_size": None}, "image_size", "one-picture-needed"),
-        ({"image_id": "0" * 64}, "image_size", "one-picture-needed"),
-        ({"image_size": None, "image_id": "0" * 64}, "image_id", "unknown-image"),
+        ({"image_size": None}, "image_size", "missing"),
         ({"image_size": {"width": 90_000, "height": 90_000}}, "image_size", "image-too-large"),
         ({"image_size": {"width": 100, "height": 100}}, "points.nose", "point-outside-image"),
         ({"points": {"nose": [1, 1]}}, "points", "too-few-points"),

@@ -1,4 +1,4 @@
-"""Result documents as they are told: what of them, and compressed for whom."""
+"""Result documents as they are told: compressed for whom."""
 
 import hashlib
 from typing import Any
@@ -16,27 +16,6 @@ def job(service: Service) -> dict[str, Any]:
     return service.ended(service.submit())
 
 
-def test_stages_are_told_to_those_who_ask(service: Service, job: dict[str, Any]):
-    path = job["links"]["result"]
-    brief, whole = (service.client.get(path, params=asked) for asked in ({}, {"include": "stages"}))
-    assert brief.json()["stages"] == []
-    assert [each["name"] for each in whole.json()["stages"]] == ["SE"]
-    assert brief.json() | {"stages": whole.json()["stages"]} == whole.json()
-    assert brief.headers["ETag"] != whole.headers["ETag"]
-    tag = {"If-None-Match": brief.headers["ETag"]}
-    assert service.client.get(path, headers=tag).status_code == 304
-    assert service.client.get(path, params={"include": "stages"}, headers=tag).status_code == 200
-    stored = service.client.get(job["links"]["files"]["result.json"])
-    assert stored.json() == whole.json()
-
-
-def test_a_part_that_there_is_not_is_refused_by_name(service: Service, job: dict[str, Any]):
-    refused = service.client.get(job["links"]["result"], params={"include": "stagse"})
-    assert refused.status_code == 422
-    assert refused.json()["field"].startswith("include")
-    assert "stages" in refused.json()["detail"] + refused.json()["remedy"]
-
-
 def test_a_measurement_has_the_interval_that_holds_95_of_100(service: Service, job: dict[str, Any]):
     waist = service.client.get(job["links"]["result"]).json()["measurements"][0]
     value, error = waist["value"], waist["standard_error"]
@@ -46,7 +25,7 @@ def test_a_measurement_has_the_interval_that_holds_95_of_100(service: Service, j
 
 
 def test_json_is_compressed_when_asked_for(service: Service, job: dict[str, Any]):
-    for path in (f"{job['links']['result']}?include=stages", "/openapi.json"):
+    for path in (job["links"]["result"], "/openapi.json"):
         plain, packed = (service.client.get(path, headers=each) for each in (PLAIN, PACKED))
         assert "Content-Encoding" not in plain.headers
         assert packed.headers["Content-Encoding"] == "gzip"

@@ -22,7 +22,7 @@ PICTURES = [scripted_image({"seconds": 1.5}), scripted_image({"n": 1})]
 FOUND = {
     "waist": [84.0, 84.0],
     "interval": [82.04, 85.96],
-    "stages": [0, 1],
+    "stages": 1,
     "views": ["front", "side"],
     "glb": ["glTF", "glTF"],
     "refused": [422, "height_m"],

@@ -58,9 +58,9 @@ def test_openpose_leaves_out_what_it_did_not_see():
 
 
 def test_blazepose_is_scaled_to_pixels_and_loses_points_outside():
-    landmarks = [{"x": 0.5, "y": 0.25, "z": 0.1, "visibility": 0.9} for _ in range(33)]
-    landmarks[27] |= {"visibility": 0.2}
-    landmarks[28] |= {"y": 1.2}
+    landmarks = [[0.5, 0.25, 0.9] for _ in range(33)]
+    landmarks[27][2] = 0.2
+    landmarks[28][1] = 1.2
     points = named(landmarks, PointsFormat.BLAZEPOSE33)
     assert points["left_knee"] == Point(
         x=100.0, y=25.0, visibility=2, source=PointSource.PROPOSAL, confidence=0.9
@@ -70,7 +70,7 @@ def test_blazepose_is_scaled_to_pixels_and_loses_points_outside():
 
 
 def test_blazepose_in_pixels_is_told_that_shares_are_expected():
-    landmarks = [{"x": 120.0 + i, "y": 300.0, "visibility": 0.9} for i in range(33)]
+    landmarks = [[120.0 + i, 300.0, 0.9] for i in range(33)]
     with pytest.raises(PydanticCustomError, match="shares of the picture") as caught:
         named(landmarks, PointsFormat.BLAZEPOSE33)
     assert caught.value.type == "points-in-pixels"

@@ -52,7 +52,7 @@ def request_of_standing_person() -> FitRequest:
 
 
 def found(request: FitRequest, **changes):
-    arguments = {"width": 720, "height": 960, "exif_focal_length_35mm": None} | changes
+    arguments = {"width": 720, "height": 960} | changes
     (view,) = request.views
     model = prepared_model(request.person.gender)
     return initial_body(request.person, view, model, **arguments)
@@ -98,16 +98,12 @@ def test_what_the_caller_says_of_a_limb_is_obeyed_and_not_called_ambiguous(
         assert not reading.ambiguous
 
 
-def test_the_focal_length_is_the_callers_else_the_pictures_else_assumed(request_of_standing_person):
-    unknown = changed(request_of_standing_person, focal_length_px=None)
-    for request, exif, source in (
-        (request_of_standing_person, 28.0, FocalLengthSource.CALLER),
-        (unknown, 28.0, FocalLengthSource.EXIF_35MM),
-        (unknown, None, FocalLengthSource.ASSUMED),
-    ):
-        initial = found(request, exif_focal_length_35mm=exif)
-        assert initial.focal_length_source is source
-    assert {assumption.quantity for assumption in initial.assumptions} == {"focal_length_35mm"}
+def test_the_focal_length_is_the_callers_or_assumed(request_of_standing_person):
+    said = found(request_of_standing_person)
+    assert (said.focal_length_source, said.assumptions) == (FocalLengthSource.CALLER, ())
+    assumed = found(changed(request_of_standing_person, focal_length_px=None))
+    assert assumed.focal_length_source is FocalLengthSource.ASSUMED
+    assert [each.quantity for each in assumed.assumptions] == ["focal_length_35mm"]
 
 
 def test_an_unknown_height_is_assumed_and_said_so(request_of_standing_person):

@@ -61,13 +61,10 @@ def test_the_points_are_those_a_fit_proposes_to_itself():
         assert (point.click.spread_m, point.click.occluded) == (inside.spread_m, inside.occluded)
 
 
-def test_an_expected_error_is_the_spread_in_pixels_of_the_picture():
-    """The sample shows 1.80 m from 41 to about 890, so some 470 pixels a metre."""
+def test_the_person_of_the_sample_is_found():
     proposal = proposed(load_sample().image)
-    for point in proposal.points.values():
-        assert point.expected_error_px == pytest.approx(470.0 * point.click.spread_m, rel=0.1)
-    ((left, top, right, bottom),) = [each.box for each in proposal.persons]
-    assert (left, top, right, bottom) == pytest.approx((163, 41, 559, 895), abs=12)
+    (box,) = proposal.persons
+    assert box == pytest.approx((163, 41, 559, 895), abs=12)
     assert codes(proposal) == []
 
 

@@ -74,8 +74,8 @@ def test_a_body_of_the_surveys_size_measures_as_its_people_do(trained):
         fields, share = definition.about.survey.fields, definition.about.survey.share
         if fields and definition.about.name not in OTHER_THAN_THE_SURVEYS:
             (mean,), ((variance,),) = moments.of([dict.fromkeys(fields, share)])
-            if abs(each.measurement.value - mean) > 1.2 * np.sqrt(variance):
-                far[definition.about.name] = (each.measurement.value, mean, np.sqrt(variance))
+            if abs(each.value - mean) > 1.2 * np.sqrt(variance):
+                far[definition.about.name] = (each.value, mean, np.sqrt(variance))
     assert not far
 
 

@@ -4,13 +4,13 @@ import type { PointsProposal } from "../../../service/page/src/api/types";
 type Proposed = PointsProposal["points"];
 
 function point(x: number, y: number, visibility: 1 | 2 = 2): NonNullable<Proposed["nose"]> {
-  return { x, y, visibility, source: "proposal", confidence: visibility === 2 ? 0.95 : 0.3, expected_error_px: 6 };
+  return { x, y, visibility, source: "proposal", confidence: visibility === 2 ? 0.95 : 0.3 };
 }
 
 /** Someone who faces the camera, an ankle hidden. */
 export const FOUND: PointsProposal = {
   image_size: { width: 720, height: 960 },
-  persons: [{ box: [170, 60, 560, 850], score: 0.9 }],
+  persons: [[170, 60, 560, 850]],
   person: 0,
   points: {
     nose: point(334, 123),
@@ -47,5 +47,5 @@ export const NOBODY_FOUND: PointsProposal = {
 
 /** The same points, of one among several. */
 export function proposalOf(boxes: readonly (readonly [number, number, number, number])[], person = 0): PointsProposal {
-  return { ...FOUND, persons: boxes.map((box) => ({ box: [...box], score: 0.9 })), person };
+  return { ...FOUND, persons: boxes.map((box) => [...box]), person };
 }

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from fitter.measurement.quantity import INTERVAL_SD
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
 from fitter.energies.shape_terms import height_extrapolation
@@ -39,7 +40,7 @@ def estimate(gender: Gender, **known: float | tuple[float, float]) -> BodyEstima
 
 
 def values(estimated: BodyEstimate) -> dict[str, float]:
-    return {each.measurement.name: each.measurement.value for each in estimated.measurements}
+    return {each.name: each.value for each in estimated.measurements}
 
 
 def typical(gender: Gender, *deviations: float) -> dict[str, float]:
@@ -65,8 +66,7 @@ def test_nothing_known_gives_the_mean_body_with_the_populations_spread(gender):
     assert np.array_equal(estimated.shape, np.zeros_like(estimated.shape))
     assert estimated.plausibility == 1.0
     stature = estimated.measurements[0]
-    assert stature.high - stature.low > 15.0
-    assert not any(each.given for each in estimated.measurements)
+    assert stature.standard_error > 3.8
 
 
 @GENDERS
@@ -75,13 +75,10 @@ def test_known_measurements_are_held_and_have_no_interval(gender):
     known = {name: person[name] for name in ("stature", "weight", "waist_girth_navel", "inseam")}
     estimated = estimate(gender, **known)
     for each in estimated.measurements:
-        name = each.measurement.name
-        assert each.given == (name in known)
-        if each.given:
-            assert each.measurement.value == pytest.approx(known[name], abs=0.011)
-            assert each.low == each.high
-        else:
-            assert each.low < each.measurement.value < each.high
+        name = each.name
+        if name in known:
+            assert each.value == pytest.approx(known[name], abs=0.011)
+        assert (each.standard_error == 0.0) == (name in known)
 
 
 @GENDERS
@@ -104,8 +101,8 @@ def test_every_further_measurement_narrows_the_others(gender):
     known: dict[str, float] = {}
     for name in ("stature", "weight", "waist_girth_navel", "hip_girth"):
         estimated = estimate(gender, **known)
-        chest = next(e for e in estimated.measurements if e.measurement.name == "chest_girth")
-        spreads.append(chest.high - chest.low)
+        chest = next(e for e in estimated.measurements if e.name == "chest_girth")
+        spreads.append(chest.standard_error)
         known[name] = person[name]
     assert spreads == sorted(spreads, reverse=True)
     assert spreads[-1] < 0.6 * spreads[0]
@@ -122,9 +119,9 @@ def test_nineteen_in_twenty_people_lie_within_their_intervals(gender):
         person = dict(zip(names, measurement_values(measuring, shape).tolist(), strict=True))
         estimated = estimate(gender, stature=person["stature"], weight=person["weight"])
         inside += [
-            each.low <= person[each.measurement.name] <= each.high
+            abs(person[each.name] - each.value) <= INTERVAL_SD * each.standard_error
             for each in estimated.measurements
-            if not each.given
+            if each.standard_error
         ]
     assert np.mean(inside) == pytest.approx(0.95, abs=0.03)
 
@@ -185,8 +182,8 @@ def test_beyond_usual_heights_errors_are_wider_and_a_warning_says_so(gender, sta
     assert (warning.code, f"{wider:.2f} times" in warning.message) == ("unusual-height", True)
     variances = np.diag(conditioned.jacobian @ conditioned.covariance @ conditioned.jacobian.T)
     for each, variance in zip(unusual.measurements, variances, strict=True):
-        if not each.given:
-            assert each.measurement.standard_error == pytest.approx(wider * np.sqrt(variance))
+        if each.standard_error:
+            assert each.standard_error == pytest.approx(wider * np.sqrt(variance))
     assert usual.warnings == ()
 
 

@@ -16,7 +16,7 @@ from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.compute.tasks import ProblemError, UnusableInputError
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, initial_pose, jpeg, points
-from service.estimates.questions import BodyTask, InitialPoseTask
+from service.estimates.questions import BodyTask
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
 
 SAMPLE = FitRequest.model_validate_json(load_sample().request)
@@ -64,23 +64,20 @@ def test_what_nobody_is_is_refused_where_it_was_said(known, field, code):
     assert caught.value.error.remedy
 
 
-def sample_pose(*, exif_focal_length_35mm: float | None = None, **changes: object):
+def sample_pose(**changes: object):
     options = InitialPoseRequest(
         gender=SAMPLE.gender,
         height_m=SAMPLE.height_m,
         points=SAMPLE.views[0].given_points,
         image_size=ImageSize(width=720, height=960),
     ).model_copy(update=changes)
-    task = InitialPoseTask(
-        subject=options, width=720, height=960, exif_focal_length_35mm=exif_focal_length_35mm
-    )
-    return options, initial_pose(task, None)
+    return options, initial_pose(options, None)
 
 
 def test_the_sample_s_clicks_give_a_body_near_them_with_an_outline_round_them():
-    options, pose = sample_pose(exif_focal_length_35mm=50.0)
+    options, pose = sample_pose(focal_length_35mm=50.0)
     assert pose.height_m == options.height_m
-    assert pose.focal_length_source == "exif_35mm_equivalent"
+    assert pose.focal_length_source == "caller"
     assert set(pose.residual_px) == set(options.points)
     assert sorted(pose.residual_px.values())[len(pose.residual_px) // 2] < 10.0
     corners = [corner for loop in pose.outline for corner in loop]
@@ -114,9 +111,8 @@ def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     proposal = found.proposal
     assert len(proposal.points) == 21
     assert proposal.doubtful == ()
-    for name, point in proposal.points.items():
+    for point in proposal.points.values():
         assert Point.model_validate_json(point.model_dump_json()).source is PointSource.PROPOSAL
-        assert 2.0 < point.expected_error_px < 20.0, name
 
 
 def sample_of_a_phone() -> bytes:
@@ -174,7 +170,7 @@ def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
     assert (found.seen_from, found.assumptions) == (SeenFrom.FRONT, ())
     assert found.distance_m == pytest.approx(3.0, rel=0.05)
     assert found.lean_deg == pytest.approx(0.0, abs=2.0)
-    assert found.persons[0].box == pytest.approx((163, 41, 559, 895), abs=12)
+    assert found.persons[0] == pytest.approx((163, 41, 559, 895), abs=12)
 
 
 def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():

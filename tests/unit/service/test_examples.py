@@ -18,7 +18,7 @@ from api_schemas.questions import (
     PointsRequest,
 )
 from api_schemas.results import FitResult
-from api_schemas.service import BodyModels, Live, Ready
+from api_schemas.service import BodyModels, Health
 from service.api.openapi import recorded_examples
 
 REQUESTS, ANSWERS, NOTICES = (
@@ -41,8 +41,8 @@ KINDS = {
     "estimate_body": BodyEstimate,
     "propose_points": PointsProposal,
     "list_body_models": BodyModels,
-    "get_liveness": Live,
-    "get_readiness": Ready,
+    "get_liveness": Health,
+    "get_readiness": Health,
     "get_problem_type": ProblemType,
 }
 TEXTS = {"follow_fit", "get_metrics"}

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from api_schemas.service import Ready
+from api_schemas.service import Health
 from service.api.health import Look, Readiness, not_ready
 from service.api.problems import ProblemError
 from service.jobs.records import EngineUnavailableError
@@ -28,7 +28,7 @@ class Parts:
     reached: threading.Event = field(default_factory=threading.Event)
     let_go: threading.Event = field(default_factory=threading.Event)
 
-    def check(self, look: Look) -> Ready:
+    def check(self, look: Look) -> Health:
         self.looks += 1
         look.at = self.at
         self.reached.set()
@@ -36,7 +36,7 @@ class Parts:
             assert self.let_go.wait(PATIENCE_S)
         if self.fault is not None:
             raise self.fault
-        return Ready(workers=self.looks, queued=0)
+        return Health(status="ready", workers=self.looks, queued=0)
 
 
 @dataclass

@@ -111,7 +111,7 @@ def test_a_proposed_point_has_the_spread_of_proposals_of_its_name():
     def sent(**more: object) -> dict[str, object]:
         return {"x": 1.0, "y": 2.0} | more
 
-    proposal = {"source": "proposal", "confidence": 0.9, "expected_error_px": 7.5}
+    proposal = {"source": "proposal", "confidence": 0.9}
     clicks = clicks_of(
         points={
             "left_hip": sent(**proposal),
@@ -152,12 +152,8 @@ def test_a_detectors_point_binds_less_the_less_sure_it_is(layout, count, elbow):
 def test_what_the_detector_is_to_do_is_said_in_both_languages():
     (usual,) = fit_request().views
     assert not usual.complete_clicks
-    assert usual.slant_hints
-    assert usual.segmentation is fitter_request.SegmentationKind.SEEDED_GRABCUT
-    (other,) = translated(complete_points=True, slant_hints=False, segmentation="grabcut").views
+    (other,) = translated(complete_points=True).views
     assert other.complete_clicks
-    assert not other.slant_hints
-    assert other.segmentation is fitter_request.SegmentationKind.GRABCUT
 
 
 def test_degrees_become_radians():

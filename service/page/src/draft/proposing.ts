@@ -20,7 +20,7 @@ export const isProposing = computed(() => current.value !== null && isAwaiting(c
 /** Everybody found, where somebody may be meant whose points are not those proposed. */
 export const others = computed(() => {
   const persons = proposal.value?.persons ?? [];
-  return persons.length > 1 && isAllProposed(points.value) ? persons.map((each) => each.box) : [];
+  return persons.length > 1 && isAllProposed(points.value) ? persons : [];
 });
 
 /** What is to be known at once, while it holds. */

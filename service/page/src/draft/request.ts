@@ -46,8 +46,15 @@ export function viewRequest(view: DraftView): ViewRequest {
 
 export function initialPoseRequest(view: DraftView, gender: Gender): InitialPoseRequest {
   const { picture, uploaded, facing } = view;
-  const where = uploaded.value ? { image_id: uploaded.value.id } : { image_size: { width: picture.width, height: picture.height } };
-  return { ...personRequest(gender), points: pointsRequest(view), limb_facing: facing.value, ...lensRequest(view), ...where };
+  const recorded = uploaded.value?.focal_length_35mm;
+  return {
+    ...personRequest(gender),
+    image_size: { width: picture.width, height: picture.height },
+    points: pointsRequest(view),
+    limb_facing: facing.value,
+    ...(recorded ? { focal_length_35mm: recorded } : {}),
+    ...lensRequest(view),
+  };
 }
 
 function lensRequest({ focalLength }: DraftView): { focal_length_35mm?: number } {

@@ -6,7 +6,7 @@ import { NO_POINTS, isEnough, skipRest } from "./placed";
 import type { Points } from "./placed";
 
 /** Left, top, right and bottom, in pixels of the picture. */
-export type Box = PointsProposal["persons"][number]["box"];
+export type Box = PointsProposal["persons"][number];
 
 /** What was not proposed is asked for only where a body cannot do without. */
 export function proposedPoints({ points, person, doubtful }: PointsProposal): Points {

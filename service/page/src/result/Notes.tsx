@@ -174,10 +174,11 @@ function PictureFacts({ view }: { view: ViewResult }) {
   );
 }
 
-function lightWords({ azimuth_deg, elevation_deg, distance_m }: NonNullable<ViewResult["light"]>): string {
+function lightWords(light: NonNullable<ViewResult["light"]>): string {
   const { result: words } = messages;
-  const side = azimuth_deg > 0 ? words.fromRight : words.fromLeft;
-  const height = elevation_deg > 0 ? words.fromAbove : words.fromBelow;
-  const away = distance_m === null ? words.lightFar : words.lightAway(measured(distance_m, "meter", 1));
-  return [side(degrees(Math.abs(azimuth_deg))), height(degrees(Math.abs(elevation_deg))), away].join(", ");
+  const [azimuth, elevation, distance] = [light.azimuth_deg ?? 0, light.elevation_deg ?? 0, light.distance_m ?? null];
+  const side = azimuth > 0 ? words.fromRight : words.fromLeft;
+  const height = elevation > 0 ? words.fromAbove : words.fromBelow;
+  const away = distance === null ? words.lightFar : words.lightAway(measured(distance, "meter", 1));
+  return [side(degrees(Math.abs(azimuth))), height(degrees(Math.abs(elevation))), away].join(", ");
 }
