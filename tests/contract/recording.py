@@ -51,6 +51,7 @@ PRODUCTS: Mapping[str, Mapping[str, Any]] = {
     },
     "body-fat": {"kind": "composition", "age_years": 34},
 }
+SIZE = {"width": 720, "height": 960}
 GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
 
 
@@ -157,12 +158,7 @@ def _estimates(
 ) -> None:
     known = person | {"points": points}
     for path, shown, asked, body in (
-        (
-            "initial-poses",
-            "standing",
-            "points-and-size",
-            known | {"image_size": {"width": 720, "height": 960}},
-        ),
+        ("initial-poses", "standing", "points-and-size", known | {"image_size": SIZE}),
         ("points", "standing", "largest-person", {"image_id": image}),
         ("points", "", "person-and-mask", {"image_id": image, "person": 0, "mask": True}),
         (

@@ -71,7 +71,7 @@ def made_product(
             )
             return result, {"body_animated.glb": b"glTF"}
         case PoseOptions():
-            result = PoseResult(pose=(), colours=BodyColours.PLAIN)
+            result = PoseResult(pose={}, colours=BodyColours.PLAIN)
             return result, {"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"}
         case CompositionOptions():
             result = CompositionResult(bmi=22.0, estimates=())

@@ -81,7 +81,7 @@ def test_a_picture_is_checked_with_what_is_said_of_it(service: Service):
 
 
 def test_known_points_of_any_layout_are_named_and_may_be_few(service: Service):
-    landmarks = [{"x": 0.5, "y": 0.5, "visibility": 0.9}] * 33
+    landmarks = [[0.5, 0.5, 0.9]] * 33
     said = {"points": landmarks, "format": "blazepose33"}
     assert asked(service, request=said).json()["lean_deg"] == 21.0
     one = asked(service, request={"points": {"nose": [100, 50]}})
