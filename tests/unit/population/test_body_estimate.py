@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from fitter.measurement.quantity import INTERVAL_SD
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
 from fitter.energies.shape_terms import height_extrapolation
 from fitter.errors import InvalidInputError
 from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measurement_values
+from fitter.measurement.definitions import INTERVAL_SD
 from fitter.population.body_estimate import BodyEstimate, estimate_body
 from fitter.population.conditional_shape import MeasuredPopulation
 from fitter.population.known import conditioned_population
