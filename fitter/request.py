@@ -180,7 +180,7 @@ class Choices:
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     paper: Paper | None = None
     force: bool = False
-    max_pixels: int = 50_000_000
+    max_pixels: int = 200_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -108,10 +108,13 @@ class Settings(BaseSettings):
         description="Largest request body accepted.",
     )
     max_pixels: int = Field(
-        default=50_000_000,
+        default=200_000_000,
         ge=1,
         le=1_000_000_000,
-        description="Largest picture accepted, in pixels.",
+        description=(
+            "Largest JPEG accepted, in pixels; of other pictures and of masks no more than "
+            "51,000,000 are."
+        ),
     )
     max_queued: int = Field(
         default=1_000,

@@ -68,13 +68,13 @@ def capture_of(
         ``person-unknown``, or as :func:`fitter.observation.focal_length.focal_length` and
         :func:`fitter.observation.clicks.check_places`.
     """
-    height, width = picture.pixels.shape[:2]
+    height, width = picture.height, picture.width
     check_places(question.points, width=width, height=height)
     focal = focal_length(
         question, picture.exif, width=width, height=height, stored_width=picture.stored_width
     )
     size = working_size(width=width, height=height)
-    linear_rgb = linear_working_picture(picture.pixels, size)
+    linear_rgb = linear_working_picture(picture.pixels, size.from_reduced(picture.reduction))
     working = bytes_of_display(display_working_picture(linear_rgb))
     points = scaled_clicks(question.points, size.scale)
     bodies = None if detector is None else detector.bodies(working)

@@ -10,7 +10,7 @@ mask.
 import io
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,7 @@ from fitter.errors import InvalidInputError
 from fitter.observation.picture_files import (
     FORMAT,
     ORIENTATION,
+    WHOLE_PIXELS,
     ExifTags,
     is_heif,
     read_exif,
@@ -56,6 +57,8 @@ class DecodedPicture:
     ----------
     pixels
         (h, w, 3) sRGB, 8 bits, EXIF orientation applied.
+    width, height
+        Of the upright original, to whose pixels points and answers refer.
     stored_width
         Width before the orientation was applied: the direction EXIF's x refers to.
     exif
@@ -67,6 +70,8 @@ class DecodedPicture:
     """
 
     pixels: UInt8[np.ndarray, "h w 3"]
+    width: int
+    height: int
     stored_width: int
     exif: ExifTags
     warnings: tuple[FitWarning, ...]
@@ -85,11 +90,12 @@ def decode_picture(
     field
         Name of the request field, for error messages.
     max_pixels
-        Largest picture accepted, read from its header before anything is decoded.
+        Largest JPEG accepted, read from its header before anything is decoded; of other kinds no
+        more than ``WHOLE_PIXELS`` are.
     enough_pixels
         A JPEG that keeps as many is decoded at a half, a quarter or an eighth of its size, from
         the low frequencies of its blocks: for pictures to look at, as their light is averaged less
-        exactly. None decodes everything.
+        exactly. None decodes everything, up to ``WHOLE_PIXELS``.
 
     Raises
     ------
@@ -101,13 +107,14 @@ def decode_picture(
     with _damage_named(field):
         picture = _opened(data, field=field, max_pixels=max_pixels)
         stored_width, stored_height = picture.size
-        reduction = 1 if enough_pixels is None else _reduction(picture, enough_pixels)
+        reduction = _reduction(picture, enough_pixels)
         if reduction > 1:
             picture.draft(None, (stored_width // reduction, stored_height // reduction))
         picture.load()
         exif = read_exif(picture)
         translucent = is_translucent(picture)
         pixels = np.asarray(as_srgb(_upright(picture, exif)))
+    is_turned = exif.orientation in _SWAPPED
     remarks: list[FitWarning] = []
     if translucent:
         remarks.append(
@@ -121,6 +128,8 @@ def decode_picture(
         )
     return DecodedPicture(
         pixels=pixels,
+        width=stored_height if is_turned else stored_width,
+        height=stored_width if is_turned else stored_height,
         # A HEIC comes turned; cameras repeat in EXIF how the container has it turned.
         stored_width=stored_height if picture.info.get(ORIENTATION) in _SWAPPED else stored_width,
         exif=exif,
@@ -138,7 +147,7 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
         As :func:`decode_picture`.
     """
     with _damage_named(field):
-        picture = _opened(data, field=field, max_pixels=max_pixels)
+        picture = _opened(data, field=field, max_pixels=min(max_pixels, WHOLE_PIXELS))
         picture.load()
         return np.asarray(as_grey(_upright(picture, read_exif(picture))))
 
@@ -147,18 +156,18 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
 def _damage_named(field: str) -> Iterator[None]:
     """Turn whatever a decoder makes of hostile bytes into one clear problem.
 
-    Decoders may raise almost anything, hence the broad clause; and Pillow's warnings add nothing to
-    the checks here, which have their own pixel limit. Running out of memory does not count as
+    Decoders may raise almost anything, hence the broad clause; and Pillow's warnings and its limit
+    add nothing to the checks here, which have their own. Running out of memory does not count as
     damage.
     """
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), ExitStack() as stack:
         warnings.simplefilter("ignore")
+        stack.callback(setattr, PillowImage, "MAX_IMAGE_PIXELS", PillowImage.MAX_IMAGE_PIXELS)
+        PillowImage.MAX_IMAGE_PIXELS = None
         try:
             yield
         except (InvalidInputError, MemoryError):
             raise
-        except PillowImage.DecompressionBombError as error:
-            raise _too_large(field, "more pixels than any picture of a person") from error
         except Exception as error:
             raise InvalidInputError(
                 code=f"{field}-damaged",
@@ -174,18 +183,22 @@ def _opened(data: bytes, *, field: str, max_pixels: int) -> PillowImage.Image:
     if kind == FORMAT:
         ready_decoder(field)
     picture = PillowImage.open(io.BytesIO(data), formats=(kind,))
-    if picture.width * picture.height > max_pixels:
-        raise _too_large(field, f"more than {max_pixels / 1e6:g} million pixels")
+    most = max_pixels if picture.format in _REDUCIBLE else min(max_pixels, WHOLE_PIXELS)
+    if picture.width * picture.height > most:
+        raise _too_large(field, f"more than {most / 1e6:g} million pixels")
     _check_form(picture, field=field)
     return picture
 
 
-def _reduction(picture: PillowImage.Image, enough_pixels: float) -> int:
-    """Factor by which a decoder may make the picture smaller, in each direction."""
+def _reduction(picture: PillowImage.Image, enough_pixels: float | None) -> int:
+    """Factor by which a decoder makes the picture smaller, in each direction."""
     if picture.format not in _REDUCIBLE:
         return 1
     pixels = picture.width * picture.height
-    return next((by for by in (8, 4, 2) if pixels >= by**2 * enough_pixels), 1)
+    enough = WHOLE_PIXELS if enough_pixels is None else min(enough_pixels, WHOLE_PIXELS)
+    needed = next((by for by in (1, 2, 4) if pixels <= by**2 * WHOLE_PIXELS), 8)
+    wanted = next((by for by in (8, 4, 2) if pixels >= by**2 * enough), 1)
+    return max(needed, wanted)
 
 
 _TURNS = {

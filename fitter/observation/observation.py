@@ -132,7 +132,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
     """
     check_light(view.light)
     picture = decode_picture(view.image, field="image", max_pixels=max_pixels)
-    height, width = picture.pixels.shape[:2]
+    height, width = picture.height, picture.width
     if view.complete_clicks:
         check_places(view.clicks, width=width, height=height)
     else:
@@ -144,7 +144,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
     mask = None
     if view.mask is not None:
         mask = decode_mask(view.mask, width=width, height=height, size=size, max_pixels=max_pixels)
-    linear_rgb = linear_working_picture(picture.pixels, size)
+    linear_rgb = linear_working_picture(picture.pixels, size.from_reduced(picture.reduction))
     display = display_working_picture(linear_rgb)
     given = clicks = scaled_clicks(view.clicks, size.scale)
     bodies = () if detector is None else detector.bodies(bytes_of_display(display))

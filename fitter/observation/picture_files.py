@@ -21,6 +21,10 @@ PACKAGE: Final = "pi_heif"
 FORMAT: Final = "HEIF"
 """Its name in Pillow."""
 
+WHOLE_PIXELS: Final = 51_000_000
+"""Most pixels that are decoded, some 150 MB: 50-megapixel phones take 50.3 million. A larger JPEG
+is decoded at a half, a quarter or an eighth of its size."""
+
 NOT_INSTALLED_CODE: Final = "heic-not-installed"
 NOT_INSTALLED: Final = "HEIC pictures are not decoded here: the package pi-heif is not installed."
 REMEDY: Final = (

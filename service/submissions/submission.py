@@ -113,8 +113,8 @@ def check_picture(
     Raises
     ------
     RefusedError
-        If it is empty, of another kind, damaged, animated or larger than ``max_pixels``, or a HEIC
-        where none are decoded.
+        If it is empty, of another kind, damaged, animated, a HEIC where none are decoded, or too
+        large: a JPEG may have ``max_pixels``, all else what is decoded whole.
     """
     if not content:
         raise refused(
@@ -166,8 +166,10 @@ def check_picture(
                 remedy="Send a single picture.",
             )
         )
-    if header.width * header.height > max_pixels:
-        raise refused(too_many_pixels(field, header.width, header.height, max_pixels))
+    is_reducible = header.media_type == "image/jpeg" and field != MASK
+    most = max_pixels if is_reducible else min(max_pixels, picture_files.WHOLE_PIXELS)
+    if header.width * header.height > most:
+        raise refused(too_many_pixels(field, header.width, header.height, most))
     return header
 
 

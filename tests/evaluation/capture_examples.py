@@ -85,7 +85,12 @@ def examples() -> list[Example]:
 def said_of(example: Example, detector: Detector) -> list[str]:
     """The codes that the checks answer for an example, in their order."""
     decoded = DecodedPicture(
-        pixels=example.picture, stored_width=example.picture.shape[1], exif=ExifTags(), warnings=()
+        pixels=example.picture,
+        width=example.picture.shape[1],
+        height=example.picture.shape[0],
+        stored_width=example.picture.shape[1],
+        exif=ExifTags(),
+        warnings=(),
     )
     capture = capture_of(decoded, example.question, detector=detector)
     return [finding.code.value for finding in check_capture(capture).findings]

@@ -154,6 +154,8 @@ def _found(form: Form) -> set[Code]:
 def _capture_of(picture: Picture, question: CaptureQuestion) -> Capture:
     decoded = DecodedPicture(
         pixels=np.ascontiguousarray(picture),
+        width=picture.shape[1],
+        height=picture.shape[0],
         stored_width=picture.shape[1],
         exif=ExifTags(),
         warnings=(),

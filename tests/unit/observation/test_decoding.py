@@ -13,7 +13,9 @@ from PIL import ImageCms
 
 from fitter.errors import InvalidInputError
 from fitter.observation.decoding import DecodedPicture, decode_coverage, decode_picture
+from fitter.observation.picture_files import WHOLE_PIXELS
 from fitter.observation.pixels import display_from_linear
+from fitter.request import Choices
 from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, noise, smooth
 
 RGB = PillowImage.fromarray(noise())
@@ -268,6 +270,43 @@ def test_a_reduced_jpeg_is_upright_and_knows_its_width():
     picture = reduced(encode(LARGE, "JPEG", exif=exif), 0.2)
     assert picture.pixels.shape == (501, 668, 3)
     assert picture.stored_width == LARGE.width
+
+
+@pytest.fixture
+def _few_whole_pixels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The large picture has more pixels than are decoded, as those of phones do."""
+    monkeypatch.setattr("fitter.observation.decoding.WHOLE_PIXELS", 400_000)
+
+
+@pytest.mark.usefixtures("_few_whole_pixels")
+def test_a_jpeg_of_more_pixels_than_are_decoded_is_reduced_and_knows_its_size():
+    exif = PillowImage.Exif()
+    exif[0x0112] = 6
+    for enough, reduction in ((None, 2), (1e9, 2), (50_000.0, 4)):
+        picture = decode_picture(
+            encode(LARGE, "JPEG", exif=exif), field="image", max_pixels=10**7, enough_pixels=enough
+        )
+        assert picture.reduction == reduction
+        assert (picture.width, picture.height) == (LARGE.height, LARGE.width)
+        assert picture.pixels.shape[1] == -(-LARGE.height // reduction)
+
+
+@pytest.mark.usefixtures("_few_whole_pixels")
+@pytest.mark.parametrize("kind", ["PNG", "WEBP"])
+def test_other_kinds_of_more_pixels_than_are_decoded_are_refused(kind: str):
+    assert code_of(encode(LARGE, kind), max_pixels=10**7) == "image-too-large"
+
+
+@pytest.mark.usefixtures("_few_whole_pixels")
+def test_a_mask_of_more_pixels_than_are_decoded_is_refused():
+    with pytest.raises(InvalidInputError) as caught:
+        decode_coverage(encode(LARGE.convert("L"), "JPEG"), field="mask", max_pixels=10**7)
+    assert caught.value.code == "mask-too-large"
+
+
+def test_pictures_of_phones_pass():
+    assert Choices().max_pixels >= 12_240 * 16_320
+    assert WHOLE_PIXELS >= 8_192 * 6_144
 
 
 @pytest.mark.parametrize("kind", ["PNG", "WEBP"])

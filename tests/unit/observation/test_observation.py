@@ -16,7 +16,7 @@ from fitter.observation.pixels import (
     working_size,
 )
 from fitter.observation.subject import check_height
-from fitter.request import LightGuess
+from fitter.request import Click, LightGuess
 from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.unit.observation.pictures import (
     HEIGHT,
@@ -24,6 +24,7 @@ from tests.unit.observation.pictures import (
     encode,
     noise,
     read,
+    smooth,
     standing_clicks,
     view,
 )
@@ -203,3 +204,18 @@ def test_warnings_of_all_parts_come_together():
         "transparency-over-white",
         "shoulders-and-hips-disagree",
     ]
+
+
+def test_of_a_picture_that_is_decoded_at_a_part_of_its_size_points_and_camera_are_the_originals(
+    monkeypatch,
+):
+    large = PillowImage.fromarray(smooth()).resize((10 * WIDTH, 10 * HEIGHT))
+    clicks = {name: Click(x=10 * at.x, y=10 * at.y) for name, at in standing_clicks().items()}
+    sent = view(encode(large, "JPEG", quality=95), clicks=clicks)
+    whole = read(sent)
+    monkeypatch.setattr("fitter.observation.decoding.WHOLE_PIXELS", 2 * WORKING_PIXELS)
+    part = read(sent)
+    assert part.image_camera == whole.image_camera
+    assert (part.scale, part.camera) == (whole.scale, whole.camera)
+    assert dict(part.clicks) == dict(whole.clicks)
+    np.testing.assert_allclose(part.display, whole.display, atol=0.01)

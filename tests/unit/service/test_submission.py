@@ -1,8 +1,10 @@
+import io
 import json
 import sys
 from collections.abc import Sequence
 
 import pytest
+from PIL import Image
 
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
@@ -11,7 +13,7 @@ from api_schemas.questions import PointsRequest
 from fitter.vocabulary.points import LIMB_POINT_NAMES, POINT_NAMES
 from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError, _meant_field, parsed
-from service.submissions.submission import CheckedSubmission, check_submission
+from service.submissions.submission import CheckedSubmission, check_picture, check_submission
 from tests.heif_files import EIGHT_BITS
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -307,6 +309,24 @@ def test_text_that_is_not_json_is_malformed():
 )
 def test_a_bad_picture_is_refused(field, content, status, code):
     assert refusal(**{field: content}) == (status, f"views.0.{field}", code)
+
+
+@pytest.mark.parametrize(
+    ("kind", "field", "is_taken"),
+    [("JPEG", "image", True), ("PNG", "image", False), ("JPEG", "mask", False)],
+)
+def test_only_a_jpeg_may_have_more_pixels_than_are_decoded(
+    monkeypatch, kind: str, field: str, is_taken: bool
+):
+    monkeypatch.setattr("fitter.observation.picture_files.WHOLE_PIXELS", 10_000)
+    stream = io.BytesIO()
+    Image.new("RGB", (200, 100)).save(stream, kind)
+    if is_taken:
+        assert check_picture(field, stream.getvalue(), max_pixels=20_000).width == 200
+    else:
+        with pytest.raises(RefusedError) as caught:
+            check_picture(field, stream.getvalue(), max_pixels=20_000)
+        assert caught.value.problem.code == "image-too-large"
 
 
 def test_a_heic_is_accepted():
