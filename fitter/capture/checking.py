@@ -15,7 +15,7 @@ from fitter.capture.framing import (
     size,
     wholeness,
 )
-from fitter.capture.people import nobody_else, proportions, somebody
+from fitter.capture.people import face, nobody_else, proportions, somebody
 from fitter.capture.picture_quality import brightness, darkness, sharpness
 from fitter.capture.posture import announced_view, arms, facing, posture, seen_from
 from fitter.vocabulary.outcomes import SeenFrom, Severity
@@ -34,6 +34,7 @@ CHECKS_OF_PERSON: tuple[Check, ...] = (
     wholeness,
     size,
     announced_view,
+    face,
     arms,
     clothes,
     posture,
@@ -46,6 +47,7 @@ CHECKS_OF_PERSON: tuple[Check, ...] = (
 CODES_OF_PERSON = (
     Code.CUT_OFF,
     Code.PERSON_TOO_SMALL,
+    Code.FACE_HIDDEN,
     Code.ARMS_AGAINST_TRUNK,
     Code.CLOTHES_LOOSE,
     Code.NOT_STANDING,

@@ -26,6 +26,7 @@ class Code(StrEnum):
     ARMS_AGAINST_TRUNK = "arms-against-trunk"
     CLOTHES_LOOSE = "clothes-loose"
     SKIN_NOT_FOUND = "skin-not-found"
+    FACE_HIDDEN = "face-hidden"
     COVERED = "covered"
     NOT_STANDING = "not-standing"
     CHILD = "child"

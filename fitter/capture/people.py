@@ -7,7 +7,10 @@ import numpy as np
 
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
-from fitter.capture.posture import posture
+from fitter.capture.posture import detected_posture
+from fitter.detection.body_landmarks import FACE_NEARBY, FACE_SEEN
+from fitter.detection.detector import DetectedBody
+from fitter.detection.person_detector import DetectedFace
 from fitter.vocabulary.outcomes import Severity
 
 SURE: Final = 0.9
@@ -20,6 +23,8 @@ MUDDLED_SHARE: Final = 0.14
 """Two people are not told apart where the detector is unsure of as much, of the person's area. Of
 62 pictures of one person it is at most 0.02, with a bag at 0.09; of 22 people before or behind
 others 0.06 to 1.04, and from 0.23 on points go astray (tuning halves)."""
+
+_SIDES: Final = ("left", "right")
 
 NO_DETECTOR = "No detector looked at the picture."
 
@@ -48,6 +53,16 @@ def nobody_else(capture: Capture) -> Remark | None:
     """Whether others are in the picture, and nobody says who is meant or they overlap."""
     if capture.bodies is None:
         return Unchecked(code=Code.SEVERAL_PEOPLE, reason=NO_DETECTOR)
+    if not capture.is_clicked and len(_faces(capture)) > 1:
+        return Finding(
+            code=Code.SEVERAL_PEOPLE,
+            severity=Severity.BLOCKS,
+            reason=(
+                f"{len(_faces(capture))} faces are seen where one person was found: what belongs "
+                "to whom cannot be told."
+            ),
+            remedy=_ALONE,
+        )
     share = 0.0 if capture.is_clicked else _unsure_share(capture)
     if share > MUDDLED_SHARE:
         return Finding(
@@ -57,7 +72,7 @@ def nobody_else(capture: Capture) -> Remark | None:
                 f"It cannot be told what belongs to the person, of {share:.0%} of their size: "
                 "somebody stands behind or before them."
             ),
-            remedy="Have nobody else in the picture, or click all points on the person.",
+            remedy=_ALONE,
         )
     others = [each for each in capture.bodies if each is not capture.body]
     if capture.body is None or not others or capture.is_chosen:
@@ -74,6 +89,27 @@ def nobody_else(capture: Capture) -> Remark | None:
     )
 
 
+_ALONE: Final = "Have nobody else in the picture, or click all points on the person."
+
+
+def _faces(capture: Capture) -> list[DetectedFace]:
+    """Faces at the person's head but for those of others who were found."""
+    if capture.body is None:
+        return []
+    noses = [
+        np.array([nose.x, nose.y])
+        for each in capture.bodies or ()
+        if each is not capture.body and (nose := each.points.get("nose")) is not None
+    ]
+    near = FACE_NEARBY * capture.body.person.radius
+    return [
+        face
+        for face in capture.body.faces
+        if face.score >= FACE_SEEN
+        and all(np.linalg.norm(face.middle - nose) > near for nose in noses)
+    ]
+
+
 def _unsure_share(capture: Capture) -> float:
     """Area in which the detector is unsure whether it sees the person, over the person's."""
     if capture.body is None or capture.mask is None or not capture.mask.any():
@@ -83,6 +119,22 @@ def _unsure_share(capture: Capture) -> float:
     tall = np.ptp(np.flatnonzero(capture.mask.any(axis=1)))
     depth = cv2.distanceTransform(unsure.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return float(np.count_nonzero(depth > RIM_SHARE * tall) / np.count_nonzero(capture.mask))
+
+
+def face(capture: Capture) -> Remark | None:
+    """Whether the face of who is seen from the front is hidden."""
+    if capture.body is None or not capture.body.hides_face:
+        return None
+    return Finding(
+        code=Code.FACE_HIDDEN,
+        severity=Severity.HARMS,
+        reason=(
+            "The person is seen from the front, but no face: something hides it. Which way they "
+            "face is judged by trunk and legs, and their skin's colour by the hands alone."
+        ),
+        remedy="Send the picture with the face in sight.",
+        points=("nose", "left_eye", "right_eye"),
+    )
 
 
 MOST_BETWEEN_EYES: Final = 0.055
@@ -102,9 +154,11 @@ def proportions(capture: Capture) -> Remark | None:
     eyes = [capture.joints.get(f"{side}_eye") for side in ("left", "right")]
     if eyes[0] is None or eyes[1] is None or capture.stature_px is None:
         return Unchecked(code=Code.CHILD, reason="Both eyes are not seen.")
-    # How tall somebody is who does not stand, a picture hardly tells.
-    if posture(capture) is not None:
-        return Unchecked(code=Code.CHILD, reason="The person is not seen to stand.")
+    # How tall somebody is who does not stand, or to the thighs alone, a picture hardly tells.
+    if detected_posture(capture) is not None or not _sees_stature(capture.body):
+        return Unchecked(
+            code=Code.CHILD, reason="The person is not seen to stand from head to foot."
+        )
     share = float(np.linalg.norm(eyes[0] - eyes[1])) / capture.stature_px
     if share <= MOST_BETWEEN_EYES:
         return None
@@ -119,3 +173,10 @@ def proportions(capture: Capture) -> Remark | None:
         remedy="Measure grown-up people alone; if this is one, let the face be seen clearly.",
         points=("left_eye", "right_eye"),
     )
+
+
+def _sees_stature(body: DetectedBody) -> bool:
+    """Whether eyes, shoulders, hips and an ankle are seen: others are guesses."""
+    seen = {name for name, each in body.points.items() if not each.occluded}
+    both = {f"{side}_{point}" for side in _SIDES for point in ("eye", "shoulder", "hip")}
+    return seen >= both and any({f"{side}_knee", f"{side}_ankle"} <= seen for side in _SIDES)

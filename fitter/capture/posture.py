@@ -14,6 +14,7 @@ from jaxtyping import Bool, Float
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture, Directions, Joints
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.detection.body_landmarks import CLEARLY_TURNED, trunk_facing
 from fitter.detection.detector import DetectedBody
 from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
@@ -59,11 +60,16 @@ def posture(capture: Capture) -> Remark | None:
 
     Of a fit both the body and the detector are asked: bodies would rather stand.
     """
-    found = [_posture(detected_directions(capture)), _head(capture)]
+    found = detected_posture(capture)
     if capture.directions is not None:
         fitted = _posture(capture.directions)
-        found = [fitted, *(each for each in found if isinstance(each, Finding))]
-    return max(found, key=_gravity)
+        return max(fitted, found if isinstance(found, Finding) else None, key=_gravity)
+    return found
+
+
+def detected_posture(capture: Capture) -> Remark | None:
+    """What the detector alone says of it, the same before a fit and after it."""
+    return max(_posture(detected_directions(capture)), _head(capture), key=_gravity)
 
 
 def _head(capture: Capture) -> Finding | None:
@@ -201,14 +207,8 @@ def _words(bent: float, knees: float, *, lies: bool, leaning: float) -> str:
     return "bends over" if leaning > BENT_DEG else "sits or bends the hips"
 
 
-FRONTAL_BREADTHS = {"shoulder": 0.83, "hip": 0.46}
-"""Breadth of the detector's joints facing the camera, of the trunk's length."""
-
 LEAST_FRONTAL = 0.65
 """Cosine from which a person faces the camera or turns their back to it: within 50 degrees."""
-
-MOST_LATERAL = 0.4
-"""Cosine up to which a person is seen from the side: within 24 degrees of profile."""
 
 _SAID = {
     ViewKind.FRONT: "from the front",
@@ -224,23 +224,15 @@ def facing(capture: Capture) -> float | None:
     1 faces the camera, 0 is seen from the side, -1 from behind; None if a shoulder or a hip is
     missing.
     """
-    shoulders, hips = capture.middle("shoulder"), capture.middle("hip")
-    if shoulders is None or hips is None:
-        return None
-    length = float(np.linalg.norm(hips - shoulders))
-    if length == 0.0:
-        return None
-    down_x, down_y = (hips - shoulders) / length
-    cosines: list[float] = []
-    for pair, breadth in FRONTAL_BREADTHS.items():
-        across = capture.joints[f"left_{pair}"] - capture.joints[f"right_{pair}"]
-        cosines.append(float(across @ np.array([down_y, -down_x])) / length / breadth)
-    return max(-1.0, min(1.0, sum(cosines) / len(cosines)))
+    pairs = ("shoulder", "hip")
+    places = [capture.joints.get(f"{side}_{pair}") for pair in pairs for side in _SIDES]
+    known = [each for each in places if each is not None]
+    return trunk_facing(*known) if len(known) == len(places) else None
 
 
 def seen_from(cosine: float) -> SeenFrom:
     """The view of a person who is turned by the arc of that cosine."""
-    if abs(cosine) <= MOST_LATERAL:
+    if abs(cosine) <= CLEARLY_TURNED:
         return SeenFrom.SIDE
     if abs(cosine) < LEAST_FRONTAL:
         return SeenFrom.BETWEEN

@@ -1,14 +1,15 @@
 """The second network: a person's landmarks, in the picture and in space, and their mask."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage
-from fitter.detection.network import PictureNetwork, SquareCrop
-from fitter.detection.person_detector import DetectedPerson
+from fitter.detection.network import PictureNetwork, SquareCrop, logistic
+from fitter.detection.person_detector import DetectedFace, DetectedPerson, FaceDetector
 
 INPUT_SIZE = 256
 HEAT_MAP_SIZE = 64
@@ -24,6 +25,32 @@ MIRRORED = np.array(
     + [index + (1 if index % 2 else -1) for index in range(11, LANDMARKS)]
 )
 """The landmark each becomes in a mirror image; after the face, left ones have odd numbers."""
+
+SHOULDERS, HIPS = [11, 12], [23, 24]
+FACE: Final = slice(0, 9)
+"""Nose, eyes and ears."""
+
+FRONTAL_BREADTHS: Final = (0.83, 0.46)
+"""Breadth of shoulders and hips facing the camera, of the trunk's length."""
+
+CLEARLY_TURNED: Final = 0.4
+"""Cosine up to which a person is seen from the side: within 24 degrees of profile."""
+
+PRESENT: Final = 0.5
+"""Presence at which the network is taken to confirm that there is a person."""
+
+FACE_NEARBY: Final = 0.15
+"""A face is the person's within so much of the circle's radius of where their head is: a twelfth of
+the stature."""
+
+FACE_SEEN: Final = 0.75
+"""Certainty of a face that is seen. Of 84 people from the front (tuning half, bodies by another
+maker) it is 0.82 at least; of eight people from behind 0.68 at most, of faces hidden by boxes,
+discs, telephones or blur 0.63."""
+
+CUT_AT: Final = (-0.12, 0.85)
+"""Where the picture is cut off so that the head is out of it, and the trunk too: from the shoulders
+to the hips."""
 
 _REACH = 3
 """Pixels of the heat map on either side of a landmark that are used to refine it."""
@@ -48,6 +75,12 @@ class BodyLandmarks:
         of the camera turned toward it: x right, y down, z away.
     mask
         (h, w) probability that a pixel shows the person, 0 to 1.
+    faces
+        Seen about the head, the most certain first.
+    face
+        0 to 1, how certain it is that the person's own is seen.
+    turned
+        Whether left and right were exchanged: then how limbs slant is not known.
     """
 
     presence: float
@@ -55,48 +88,95 @@ class BodyLandmarks:
     visibility: Float[np.ndarray, "33"]
     world_m: Float[np.ndarray, "33 3"]
     mask: GreyImage
+    faces: tuple[DetectedFace, ...]
+    face: float
+    turned: bool
 
 
 class LandmarkNetwork:
     """Finds one person's landmarks, with :data:`fitter.detection.weights.BODY_LANDMARKS`.
 
     Each person is evaluated twice, as seen and mirrored, and the mean is returned: the network
-    treats left and right a little differently.
+    treats left and right a little differently. Whether somebody is seen from behind it knows by the
+    face, and where that is hidden it turns people round.
     """
 
-    def __init__(self, network: PictureNetwork) -> None:
+    def __init__(self, network: PictureNetwork, faces: FaceDetector) -> None:
         self._network = network
+        self._faces = faces
 
     def landmarks(
-        self, picture: UInt8[np.ndarray, "h w 3"], person: DetectedPerson
+        self,
+        picture: UInt8[np.ndarray, "h w 3"],
+        person: DetectedPerson,
+        *,
+        from_behind: bool = False,
     ) -> BodyLandmarks:
-        """A detected person's landmarks in a picture (sRGB)."""
+        """A detected person's landmarks in a picture (sRGB).
+
+        ``from_behind`` is that the person is said to be seen so.
+        """
         crop = _crop_about(person)
         cut = crop.cut_from(picture).astype(np.float32) / 255.0
-        seen = self._look_at(cut)
-        mirrored = _unmirrored(self._look_at(np.ascontiguousarray(cut[:, ::-1])))
-        pixels = 0.5 * (seen.pixels + mirrored.pixels)
-        world = 0.5 * (seen.world_m + mirrored.world_m)
+        looks = self._both_ways(cut)
+        head = crop.in_picture(_mean([each.pixels[FACE] for each in looks])).mean(axis=0)
+        faces = self._faces.faces(picture, person, head)
+        face = _own(faces, head, person)
+        if _contradict(looks):
+            looks = [max(looks, key=lambda each: each.facing)]
+        turned = (
+            not from_behind
+            and face < FACE_SEEN
+            and max(each.facing for each in looks) < -CLEARLY_TURNED
+            and self._is_front(cut, looks)
+        )
+        if turned:
+            looks = [each.turned_round() for each in looks]
+        world = _mean([each.world_m for each in looks])
         world[:, :2] = world[:, :2] @ crop.rotation.T
-        mask = 0.5 * (seen.mask + mirrored.mask)
+        mask = _mean([each.mask for each in looks])
         height, width = picture.shape[:2]
         return BodyLandmarks(
-            presence=0.5 * (seen.presence + mirrored.presence),
-            pixels=crop.in_picture(pixels),
-            visibility=0.5 * (seen.visibility + mirrored.visibility),
+            presence=float(np.mean([each.presence for each in looks])),
+            pixels=crop.in_picture(_mean([each.pixels for each in looks])),
+            visibility=_mean([each.visibility for each in looks]),
             world_m=world,
             mask=crop.put_back(mask.astype(np.float32), width=width, height=height),
+            faces=faces,
+            face=face,
+            turned=turned,
         )
+
+    def _both_ways(self, cut: Float[np.ndarray, "s s 3"]) -> list["_Look"]:
+        mirrored = self._look_at(np.ascontiguousarray(cut[:, ::-1]))
+        return [self._look_at(cut), _unmirrored(mirrored)]
+
+    def _is_front(self, cut: Float[np.ndarray, "s s 3"], looks: Sequence["_Look"]) -> bool:
+        """Whether trunk and legs, or legs alone, are taken to be seen from the front.
+
+        Of 34 people from behind without their heads three are, turned by half a right angle most of
+        them; of 41 from the front with hidden faces, 39.
+        """
+        pixels = _mean([each.pixels for each in looks])
+        shoulders, hips = (pixels[pair, 1].mean() for pair in (SHOULDERS, HIPS))
+        for share in CUT_AT:
+            below = cut.copy()
+            below[: max(round(shoulders + share * (hips - shoulders)), 0)] = 0.0
+            if any(
+                each.presence >= PRESENT and each.facing > 0.0 for each in self._both_ways(below)
+            ):
+                return True
+        return False
 
     def _look_at(self, cut: Float[np.ndarray, "s s 3"]) -> "_Look":
         outputs = self._network.outputs(cut)
         landmarks = outputs[(5 * OUTPUT_LANDMARKS,)].reshape(-1, 5)[:LANDMARKS].astype(np.float64)
-        heat = _logistic(outputs[HEAT_MAP_SIZE, HEAT_MAP_SIZE, OUTPUT_LANDMARKS][..., :LANDMARKS])
+        heat = logistic(outputs[HEAT_MAP_SIZE, HEAT_MAP_SIZE, OUTPUT_LANDMARKS][..., :LANDMARKS])
         return _Look(
             _refined(landmarks[:, :2], heat),
-            _logistic(landmarks[:, 3]),
+            logistic(landmarks[:, 3]),
             outputs[(3 * OUTPUT_LANDMARKS,)].reshape(-1, 3)[:LANDMARKS].astype(np.float64),
-            _logistic(outputs[INPUT_SIZE, INPUT_SIZE, 1][..., 0]),
+            logistic(outputs[INPUT_SIZE, INPUT_SIZE, 1][..., 0]),
             float(outputs[(1,)][0]),
         )
 
@@ -109,6 +189,61 @@ class _Look(NamedTuple):
     world_m: Float[np.ndarray, "33 3"]
     mask: GreyImage
     presence: float
+
+    @property
+    def facing(self) -> float:
+        """Cosine of how far the trunk is turned from the camera; 0 where it cannot be told."""
+        return trunk_facing(*self.pixels[[*SHOULDERS, *HIPS]]) or 0.0
+
+    def turned_round(self) -> "_Look":
+        """The other reading of the same picture: what was near is far, and left is right."""
+        world = self.world_m[MIRRORED] * [1.0, 1.0, -1.0]
+        return self._replace(
+            pixels=self.pixels[MIRRORED], visibility=self.visibility[MIRRORED], world_m=world
+        )
+
+
+def trunk_facing(
+    left_shoulder: Float[np.ndarray, "2"],
+    right_shoulder: Float[np.ndarray, "2"],
+    left_hip: Float[np.ndarray, "2"],
+    right_hip: Float[np.ndarray, "2"],
+) -> float | None:
+    """Cosine of how far a trunk is turned from the camera, in [-1, 1]; None if it has no length.
+
+    1 faces the camera, 0 is seen from the side, -1 from behind.
+    """
+    down = left_hip + right_hip - left_shoulder - right_shoulder
+    length = float(np.linalg.norm(down))
+    if length == 0.0:
+        return None
+    to_left = np.array([down[1], -down[0]]) / length
+    breadths = left_shoulder - right_shoulder, left_hip - right_hip
+    cosines = [
+        2.0 * float(across @ to_left) / length / frontal
+        for across, frontal in zip(breadths, FRONTAL_BREADTHS, strict=True)
+    ]
+    return max(-1.0, min(1.0, sum(cosines) / len(cosines)))
+
+
+def _contradict(looks: Sequence[_Look]) -> bool:
+    """Whether a picture and its mirror image are taken to show the person from other sides."""
+    facings = [each.facing for each in looks]
+    return max(facings) - min(facings) > CLEARLY_TURNED
+
+
+def _own(
+    faces: Sequence[DetectedFace], head: Float[np.ndarray, "2"], person: DetectedPerson
+) -> float:
+    """Certainty of the face at a person's head."""
+    near = FACE_NEARBY * person.radius
+    return max(
+        (each.score for each in faces if np.linalg.norm(each.middle - head) < near), default=0.0
+    )
+
+
+def _mean(values: Sequence[np.ndarray]) -> np.ndarray:
+    return np.mean(values, axis=0)
 
 
 def _crop_about(person: DetectedPerson) -> SquareCrop:
@@ -152,7 +287,3 @@ def _refined(
         refined[index, 0] = step * (left + (columns * near).sum() / total)
         refined[index, 1] = step * (top + (rows * near).sum() / total)
     return refined
-
-
-def _logistic(values: np.ndarray) -> np.ndarray:
-    return 1.0 / (1.0 + np.exp(-np.clip(values.astype(np.float64), -50.0, 50.0)))

@@ -1,4 +1,4 @@
-"""Both networks together: who is in a picture, and what is proposed for each person."""
+"""All networks together: who is in a picture, and what is proposed for each person."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,7 +9,13 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage
-from fitter.detection.body_landmarks import BodyLandmarks, LandmarkNetwork
+from fitter.detection.body_landmarks import (
+    CLEARLY_TURNED,
+    PRESENT,
+    BodyLandmarks,
+    LandmarkNetwork,
+    trunk_facing,
+)
 from fitter.detection.landmark_meanings import (
     HIPS,
     INDEX_OF_POINT,
@@ -21,19 +27,31 @@ from fitter.detection.landmark_meanings import (
     spread_m,
 )
 from fitter.detection.network import Network
-from fitter.detection.person_detector import DetectedPerson, PersonDetector
+from fitter.detection.person_detector import (
+    DetectedFace,
+    DetectedPerson,
+    FaceDetector,
+    PersonDetector,
+)
 from fitter.detection.weights import checked_weights
 from fitter.request import Click
+from fitter.vocabulary.choices import ViewKind
 
 MOST_PERSONS = 8
 """In a crowd, only the largest are looked at."""
 
-PRESENT = 0.5
-"""Presence at which the second network is taken to confirm that there is a person."""
-
 MATCHING_SHARE = 0.15
 """Clicks belong to a person if their mean distance from the landmarks is within this share of the
 radius of the person's circle."""
+
+FACE_POINTS = frozenset({"nose", "left_eye", "right_eye"})
+
+FACE_HIDDEN = 0.55
+"""Certainty of a face below which it is not seen: between the faces of people from the front, at
+0.82 and more, and hidden ones, of which three quarters are below (tuning halves)."""
+
+HIDDEN = 0.25
+"""Visibility of points of a face that is not seen: the network calls those visible too."""
 
 NEARBY_SHARE = 0.3
 """Nobody is where the clicks are if all landmarks are farther away than this share. People half
@@ -86,6 +104,10 @@ class DetectedBody:
         How far the trunk leans from the picture's vertical, in space.
     mask
         (h, w) probability that a pixel shows the person.
+    faces
+        Seen about the head, the most certain first.
+    hides_face
+        Whether the person is seen from the front, and their face is not, for something covers it.
     """
 
     person: DetectedPerson
@@ -94,6 +116,8 @@ class DetectedBody:
     slants: DetectedSlants
     leaning_deg: float
     mask: GreyImage
+    faces: tuple[DetectedFace, ...] = ()
+    hides_face: bool = False
 
 
 class Detector:
@@ -103,14 +127,22 @@ class Detector:
         self._persons = persons
         self._landmarks = landmarks
 
-    def bodies(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedBody, ...]:
-        """Everybody in a picture (sRGB), the largest and most certain first."""
+    def bodies(
+        self, picture: UInt8[np.ndarray, "h w 3"], view: ViewKind | None = None
+    ) -> tuple[DetectedBody, ...]:
+        """Everybody in a picture (sRGB), the largest and most certain first.
+
+        ``view`` is from where people are said to be seen.
+        """
+        from_behind = view is ViewKind.BACK
         found: list[DetectedBody] = []
         for person in self._persons.persons(picture)[:MOST_PERSONS]:
-            landmarks = self._landmarks.landmarks(picture, person)
+            landmarks = self._landmarks.landmarks(picture, person, from_behind=from_behind)
             if person.is_head_down:
                 # Raised arms are easily taken for legs; the right way up, more is visible.
-                upright = self._landmarks.landmarks(picture, person.upright())
+                upright = self._landmarks.landmarks(
+                    picture, person.upright(), from_behind=from_behind
+                )
                 if upright.visibility.mean() > landmarks.visibility.mean():
                     person, landmarks = person.upright(), upright
             if landmarks.presence >= PRESENT:
@@ -130,7 +162,9 @@ def installed_detector(folder: Path | None = None) -> Detector:
     weights = checked_weights(folder)
     return Detector(
         PersonDetector(Network(weights.person_detector)),
-        LandmarkNetwork(Network(weights.body_landmarks)),
+        LandmarkNetwork(
+            Network(weights.body_landmarks), FaceDetector(Network(weights.face_detector))
+        ),
     )
 
 
@@ -170,6 +204,8 @@ def _distance(body: DetectedBody, clicks: Mapping[str, Click]) -> float:
 def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
     height, width = landmarks.mask.shape
     pixels = own_pixels(landmarks)
+    facing = trunk_facing(*pixels[[INDEX_OF_POINT[name] for name in (*SHOULDERS, *HIPS)]]) or 0.0
+    is_faceless = abs(facing) > CLEARLY_TURNED and landmarks.face < FACE_HIDDEN
     points: dict[str, Click] = {}
     visibility: dict[str, float] = {}
     for name, index in INDEX_OF_POINT.items():
@@ -177,18 +213,23 @@ def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
         if not (0.0 <= x <= width and 0.0 <= y <= height):
             continue
         seen = float(landmarks.visibility[index])
+        if is_faceless and name in FACE_POINTS:
+            seen = min(seen, HIDDEN)
         visibility[name] = seen
         points[name] = Click(x=x, y=y, occluded=seen < SEEN, spread_m=spread_m(name, seen))
+    hides_face = is_faceless and facing > 0.0 and points.keys() >= FACE_POINTS
     return DetectedBody(
         person=person,
         points=points,
         visibility=visibility,
         slants=DetectedSlants(
-            limbs=_slants(landmarks, points),
+            limbs={} if landmarks.turned else _slants(landmarks, points),
             middle=landmarks.pixels[[INDEX_OF_POINT[hip] for hip in HIPS]].mean(axis=0),
         ),
         leaning_deg=_leaning_deg(landmarks),
         mask=landmarks.mask,
+        faces=landmarks.faces,
+        hides_face=hides_face,
     )
 
 

@@ -58,6 +58,11 @@ class Network:
         }
 
 
+def logistic(values: np.ndarray) -> Float[np.ndarray, "..."]:
+    """1 / (1 + exp(-x)) of a network's outputs."""
+    return 1.0 / (1.0 + np.exp(-np.clip(values.astype(np.float64), -50.0, 50.0)))
+
+
 @contextmanager
 def _standard_error_withheld() -> Iterator[None]:
     """Send what is written to file descriptor 2 nowhere.

@@ -1,12 +1,13 @@
-"""The first network: where people are in a picture, and how large and upright each is."""
+"""The networks that look for people and for faces: where each is, and how large."""
 
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from fitter.detection.network import PictureNetwork, SquareCrop
+from fitter.detection.network import PictureNetwork, SquareCrop, logistic
 
 INPUT_SIZE = 224
 STRIDES = (8, 16, 32, 32, 32)
@@ -69,27 +70,84 @@ class PersonDetector:
             angle=0.0,
             size=INPUT_SIZE,
         )
-        outputs = self._network.outputs(crop.cut_from(picture).astype(np.float32) / 127.5 - 1.0)
-        count = len(_anchors())
-        scores = 1.0 / (1.0 + np.exp(-np.clip(outputs[count, 1][:, 0].astype(np.float64), -50, 50)))
-        sure = np.flatnonzero(scores > SURE)
-        values = outputs[count, 4 + 2 * KEYPOINTS][sure].astype(np.float64) / INPUT_SIZE
-        anchors, scores = _anchors()[sure], scores[sure]
-        middles, halves = anchors + values[:, :2], 0.5 * values[:, 2:4]
-        keypoints = values[:, 4:].reshape(-1, KEYPOINTS, 2) + anchors[:, None]
-        boxes = np.concatenate([middles - halves, middles + halves], axis=1)
         found = [
-            _blended(keypoints[group], scores[group], crop) for group in _groups(boxes, scores)
+            DetectedPerson(score=each.score, middle=each.points[2], rim=each.points[3])
+            for each in _sightings(self._network, picture, crop, STRIDES, KEYPOINTS)
         ]
         return tuple(sorted(found, key=lambda each: each.score * each.radius**0.5, reverse=True))
 
 
-def _blended(
-    keypoints: Float[np.ndarray, "g 4 2"], scores: Float[np.ndarray, " g"], crop: SquareCrop
-) -> DetectedPerson:
-    """Merge detections of one person: their mean, weighted by score."""
-    points = crop.in_picture(INPUT_SIZE * np.average(keypoints, axis=0, weights=scores))
-    return DetectedPerson(score=float(scores.max()), middle=points[0], rim=points[1])
+FACE_INPUT_SIZE = 128
+FACE_STRIDES = (8, 16, 16, 16)
+FACE_KEYPOINTS = 6
+
+FACE_CROP = 0.65
+"""Side of the square about a head in which faces are looked for, of the radius of the circle around
+the person: a third of the stature."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DetectedFace:
+    """A face: 0 to 1, how certain that is, and its middle (2,), continuous pixels."""
+
+    score: float
+    middle: Float[np.ndarray, "2"]
+
+
+class FaceDetector:
+    """Finds faces; ``network`` is that of :data:`fitter.detection.weights.FACE_DETECTOR`."""
+
+    def __init__(self, network: PictureNetwork) -> None:
+        self._network = network
+
+    def faces(
+        self,
+        picture: UInt8[np.ndarray, "h w 3"],
+        person: DetectedPerson,
+        head: Float[np.ndarray, "2"],
+    ) -> tuple[DetectedFace, ...]:
+        """Faces about a person's head in a picture (sRGB), the most certain first."""
+        side = FACE_CROP * person.radius
+        crop = SquareCrop(centre=head, side=side, angle=0.0, size=FACE_INPUT_SIZE)
+        found = _sightings(self._network, picture, crop, FACE_STRIDES, FACE_KEYPOINTS)
+        return tuple(
+            DetectedFace(score=each.score, middle=each.points[:2].mean(axis=0)) for each in found
+        )
+
+
+class _Sighting(NamedTuple):
+    """What a network found: two corners of its box, then its key points, pixels of the picture."""
+
+    score: float
+    points: Float[np.ndarray, "k 2"]
+
+
+def _sightings(
+    network: PictureNetwork,
+    picture: UInt8[np.ndarray, "h w 3"],
+    crop: SquareCrop,
+    strides: tuple[int, ...],
+    keypoints: int,
+) -> list[_Sighting]:
+    """Everything that a network is sure of in a crop, the most certain first."""
+    outputs = network.outputs(crop.cut_from(picture).astype(np.float32) / 127.5 - 1.0)
+    anchors = _anchors(crop.size, strides)
+    scores = logistic(outputs[len(anchors), 1][:, 0])
+    sure = np.flatnonzero(scores > SURE)
+    values = outputs[len(anchors), 4 + 2 * keypoints][sure].astype(np.float64) / crop.size
+    anchors, scores = anchors[sure], scores[sure]
+    middles, halves = anchors + values[:, :2], 0.5 * values[:, 2:4]
+    corners = np.stack([middles - halves, middles + halves], axis=1)
+    places = values[:, 4:].reshape(-1, keypoints, 2) + anchors[:, None]
+    points = np.concatenate([corners, places], axis=1)
+    # Detections of one person are merged: their mean, weighted by score.
+    return [
+        _Sighting(
+            float(scores[group].max()),
+            crop.in_picture(crop.size * np.average(points[group], axis=0, weights=scores[group])),
+        )
+        for group in _groups(corners.reshape(-1, 4), scores)
+    ]
 
 
 def _groups(boxes: Float[np.ndarray, "b 4"], scores: Float[np.ndarray, " b"]) -> list[np.ndarray]:
@@ -113,15 +171,15 @@ def _overlaps(box: Float[np.ndarray, "4"], others: Float[np.ndarray, "b 4"]) -> 
 
 
 @cache
-def _anchors() -> Float[np.ndarray, "a 2"]:
-    """Centres of the network's anchors as shares of its input, (x, y), in the network's order.
+def _anchors(input_size: int, strides: tuple[int, ...]) -> Float[np.ndarray, "a 2"]:
+    """Centres of a network's anchors as shares of its input, (x, y), in the network's order.
 
     Anchors of the same stride share a grid.
     """
     grids: list[np.ndarray] = []
-    for stride in dict.fromkeys(STRIDES):
-        cells = -(-INPUT_SIZE // stride)
+    for stride in dict.fromkeys(strides):
+        cells = -(-input_size // stride)
         rows, columns = np.divmod(np.arange(cells * cells), cells)
         centres = (np.column_stack([columns, rows]) + 0.5) / cells
-        grids.append(np.repeat(centres, ANCHORS_A_STRIDE * STRIDES.count(stride), axis=0))
+        grids.append(np.repeat(centres, ANCHORS_A_STRIDE * strides.count(stride), axis=0))
     return np.concatenate(grids)

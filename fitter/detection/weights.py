@@ -10,7 +10,7 @@ from fitter.errors import DetectorUnavailableError
 
 CARRIER: Final = "mediapipe"
 CARRIER_REQUIREMENT: Final = "mediapipe==0.10.21"
-"""The last version whose wheel holds both files; it is installed without its dependencies."""
+"""The last version whose wheel holds the files; it is installed without its dependencies."""
 
 RUNTIME: Final = "ai_edge_litert"
 
@@ -41,12 +41,20 @@ BODY_LANDMARKS: Final = WeightFile(
 )
 
 
+FACE_DETECTOR: Final = WeightFile(
+    folder="modules/face_detection",
+    name="face_detection_short_range.tflite",
+    sha256="bbff11cebd1eb27a1e004cae0b0e63ec8c551cbf34a4451148b4908b8db3eca8",
+)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DetectorWeights:
-    """Both files, each what it must be."""
+    """The files, each what it must be."""
 
     person_detector: Path
     body_landmarks: Path
+    face_detector: Path
 
 
 def detector_fault(folder: Path | None = None) -> str | None:
@@ -56,7 +64,7 @@ def detector_fault(folder: Path | None = None) -> str | None:
     """
     if importlib.util.find_spec(RUNTIME) is None:
         return "The package ai-edge-litert, which runs the detector, is not installed."
-    for each in (PERSON_DETECTOR, BODY_LANDMARKS):
+    for each in (PERSON_DETECTOR, BODY_LANDMARKS, FACE_DETECTOR):
         path = _path(each, folder)
         if path is None or not path.is_file():
             where = f"the package {CARRIER}" if folder is None else str(folder)
@@ -65,7 +73,7 @@ def detector_fault(folder: Path | None = None) -> str | None:
 
 
 def checked_weights(folder: Path | None = None) -> DetectorWeights:
-    """Check both files of the package, or of a folder that holds them side by side.
+    """Check the files of the package, or of a folder that holds them side by side.
 
     Raises
     ------
@@ -78,6 +86,7 @@ def checked_weights(folder: Path | None = None) -> DetectorWeights:
     return DetectorWeights(
         person_detector=_checked(PERSON_DETECTOR, folder),
         body_landmarks=_checked(BODY_LANDMARKS, folder),
+        face_detector=_checked(FACE_DETECTOR, folder),
     )
 
 

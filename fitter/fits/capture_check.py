@@ -77,7 +77,7 @@ def capture_of(
     linear_rgb = linear_working_picture(picture.pixels, size.from_reduced(picture.reduction))
     working = bytes_of_display(display_working_picture(linear_rgb))
     points = scaled_clicks(question.points, size.scale)
-    bodies = None if detector is None else detector.bodies(working)
+    bodies = None if detector is None else detector.bodies(working, question.view)
     known = focal.source is not FocalLengthSource.ASSUMED
     capture = Capture(
         picture=working,

@@ -167,7 +167,7 @@ def dressed(
         person=silhouette.mask,
         parts=_parts(rendering, prepared),
         part_names=prepared.searched.model.part_names,
-        face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
+        face=_face(observation, rendering, prepared),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
     skin = _skin(observation.linear_rgb, regions)
@@ -345,6 +345,15 @@ def _fullness(rendering: Rendering, prepared: PreparedModel) -> FullnessMap:
     if not (faces >= 0).any():
         return uniform_fullness(faces.shape)
     return of_triangle[faces.ravel()[nearest_of(faces >= 0)]]
+
+
+def _face(
+    observation: Observation, rendering: Rendering, prepared: PreparedModel
+) -> np.ndarray | None:
+    """Place of the face; None where it is not seen."""
+    if observation.hides_face:
+        return None
+    return face_point(_clicked_face(observation), _nose(rendering, prepared))
 
 
 def _clicked_face(observation: Observation) -> np.ndarray:

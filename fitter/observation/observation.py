@@ -99,6 +99,8 @@ class Observation:
         How limbs slant, by the detector; None if nothing is known about it.
     detected
         Whether the detector finds a person where the points are; None if it was not asked.
+    hides_face
+        Whether the detector finds the face of who is seen from the front hidden.
     bodies
         Everybody the detector finds; None if it was not asked.
     """
@@ -117,6 +119,7 @@ class Observation:
     seed: GreyImage | None
     slants: DetectedSlants | None
     detected: bool | None
+    hides_face: bool
     bodies: tuple[DetectedBody, ...] | None
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
@@ -147,7 +150,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
     linear_rgb = linear_working_picture(picture.pixels, size.from_reduced(picture.reduction))
     display = display_working_picture(linear_rgb)
     given = clicks = scaled_clicks(view.clicks, size.scale)
-    bodies = () if detector is None else detector.bodies(bytes_of_display(display))
+    bodies = () if detector is None else detector.bodies(bytes_of_display(display), view.kind)
     detected = body_of_clicks(bodies, clicks)
     if view.complete_clicks:
         clicks = completed_clicks(given, detected)
@@ -175,6 +178,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         seed=detected.mask if detected is not None and _is_seeded(view) else None,
         slants=detected.slants if detected is not None and view.slant_hints else None,
         detected=None if detector is None else is_somebody_at(bodies, given),
+        hides_face=detected is not None and detected.hides_face,
         bodies=None if detector is None else tuple(bodies),
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings + side_warnings(clicks),

@@ -98,7 +98,7 @@ def test_they_are_those_of_the_wire():
     [
         (Code.PERSON_TOO_SMALL, (framing.LEAST_STATURE_PX, framing.BLOCKING_STATURE_PX)),
         (Code.PICTURE_TOO_SMALL, (framing.LEAST_STATURE_PX, framing.BLOCKING_STATURE_PX)),
-        (Code.OTHER_VIEW, (posture.LEAST_FRONTAL, posture.MOST_LATERAL)),
+        (Code.OTHER_VIEW, (posture.LEAST_FRONTAL, posture.CLEARLY_TURNED)),
         (Code.ARMS_AGAINST_TRUNK, (posture.LEAST_FREE,)),
         (
             Code.NOT_STANDING,
