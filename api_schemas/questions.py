@@ -149,8 +149,8 @@ class PointsProposal(WireModel):
     Codes: ``nobody-found``, ``several-people``, ``cut-off``, ``person-too-small``,
     ``picture-too-small``, ``other-view``, ``arms-against-trunk``, ``clothes-loose``, ``blurred``,
     ``too-dark``, ``too-bright``, ``camera-rolled``, ``camera-too-near``, ``not-standing``,
-    ``child``, ``skin-not-found``; others may be added. Warnings are those of a fit, and
-    ``seen-from-behind`` and ``limbs-crossed``.
+    ``child``, ``skin-not-found``, ``face-hidden``; others may be added. Warnings are those of a
+    fit, and ``seen-from-behind`` and ``limbs-crossed``.
     """
 
     image_size: ImageSize

@@ -14,7 +14,7 @@ from urllib.parse import SplitResult, urlsplit
 from pydantic import AfterValidator
 
 from api_schemas.jobs import secret_key
-from fitter.detection.weights import BODY_LANDMARKS, PERSON_DETECTOR
+from fitter.detection.weights import FILES
 
 POSTGRES: Final = "postgresql"
 POSTGRES_NAMES: Final = (POSTGRES, "postgres", "postgresql+psycopg")
@@ -145,7 +145,7 @@ def _with_both_models(folder: Path) -> Path:
     return folder
 
 
-DETECTOR_FILES: Final = (PERSON_DETECTOR.name, BODY_LANDMARKS.name)
+DETECTOR_FILES: Final = tuple(each.name for each in FILES)
 
 
 def _with_both_weights(folder: Path) -> Path:

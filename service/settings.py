@@ -97,8 +97,9 @@ class Settings(BaseSettings):
     detector_dir: DetectorFolder | None = Field(
         default=None,
         description=(
-            "Folder with `pose_detection.tflite` and `pose_landmark_full.tflite`, which propose "
-            "points; those of the package mediapipe if unset, and none if that is not installed."
+            "Folder with `pose_detection.tflite`, `pose_landmark_full.tflite` and "
+            "`face_detection_short_range.tflite`, which propose points; those of the package "
+            "mediapipe if unset, and none if that is not installed."
         ),
     )
     max_upload_bytes: int = Field(

@@ -71,7 +71,7 @@ class PersonDetector:
             size=INPUT_SIZE,
         )
         found = [
-            DetectedPerson(score=each.score, middle=each.points[2], rim=each.points[3])
+            DetectedPerson(score=each.score, middle=each.key_points[0], rim=each.key_points[1])
             for each in _sightings(self._network, picture, crop, STRIDES, KEYPOINTS)
         ]
         return tuple(sorted(found, key=lambda each: each.score * each.radius**0.5, reverse=True))
@@ -79,7 +79,7 @@ class PersonDetector:
 
 FACE_INPUT_SIZE = 128
 FACE_STRIDES = (8, 16, 16, 16)
-FACE_KEYPOINTS = 6
+FACE_KEYPOINTS, NOSE_TIP = 6, 2
 
 FACE_CROP = 0.65
 """Side of the square about a head in which faces are looked for, of the radius of the circle around
@@ -88,7 +88,7 @@ the person: a third of the stature."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DetectedFace:
-    """A face: 0 to 1, how certain that is, and its middle (2,), continuous pixels."""
+    """A face: 0 to 1, how certain that is, and the tip of its nose (2,), continuous pixels."""
 
     score: float
     middle: Float[np.ndarray, "2"]
@@ -111,15 +111,15 @@ class FaceDetector:
         crop = SquareCrop(centre=head, side=side, angle=0.0, size=FACE_INPUT_SIZE)
         found = _sightings(self._network, picture, crop, FACE_STRIDES, FACE_KEYPOINTS)
         return tuple(
-            DetectedFace(score=each.score, middle=each.points[:2].mean(axis=0)) for each in found
+            DetectedFace(score=each.score, middle=each.key_points[NOSE_TIP]) for each in found
         )
 
 
 class _Sighting(NamedTuple):
-    """What a network found: two corners of its box, then its key points, pixels of the picture."""
+    """What a network found: how certain it is, and key points in pixels of the picture."""
 
     score: float
-    points: Float[np.ndarray, "k 2"]
+    key_points: Float[np.ndarray, "k 2"]
 
 
 def _sightings(
@@ -137,16 +137,15 @@ def _sightings(
     values = outputs[len(anchors), 4 + 2 * keypoints][sure].astype(np.float64) / crop.size
     anchors, scores = anchors[sure], scores[sure]
     middles, halves = anchors + values[:, :2], 0.5 * values[:, 2:4]
-    corners = np.stack([middles - halves, middles + halves], axis=1)
+    boxes = np.concatenate([middles - halves, middles + halves], axis=1)
     places = values[:, 4:].reshape(-1, keypoints, 2) + anchors[:, None]
-    points = np.concatenate([corners, places], axis=1)
     # Detections of one person are merged: their mean, weighted by score.
     return [
         _Sighting(
             float(scores[group].max()),
-            crop.in_picture(crop.size * np.average(points[group], axis=0, weights=scores[group])),
+            crop.in_picture(crop.size * np.average(places[group], axis=0, weights=scores[group])),
         )
-        for group in _groups(corners.reshape(-1, 4), scores)
+        for group in _groups(boxes, scores)
     ]
 
 

@@ -47,6 +47,8 @@ FACE_DETECTOR: Final = WeightFile(
     sha256="bbff11cebd1eb27a1e004cae0b0e63ec8c551cbf34a4451148b4908b8db3eca8",
 )
 
+FILES: Final = (PERSON_DETECTOR, BODY_LANDMARKS, FACE_DETECTOR)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DetectorWeights:
@@ -64,7 +66,7 @@ def detector_fault(folder: Path | None = None) -> str | None:
     """
     if importlib.util.find_spec(RUNTIME) is None:
         return "The package ai-edge-litert, which runs the detector, is not installed."
-    for each in (PERSON_DETECTOR, BODY_LANDMARKS, FACE_DETECTOR):
+    for each in FILES:
         path = _path(each, folder)
         if path is None or not path.is_file():
             where = f"the package {CARRIER}" if folder is None else str(folder)

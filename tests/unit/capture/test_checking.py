@@ -41,14 +41,14 @@ def test_every_check_is_made_or_said_not_to_be():
     face = {name: at for name, at in by_points_alone().points.items() if "eye" in name}
     for nothing, expected in (
         (by_points_alone(), {Code.NOBODY_FOUND, Code.SEVERAL_PEOPLE, Code.ARMS_AGAINST_TRUNK,
-                             Code.CLOTHES_LOOSE, Code.NOT_STANDING, Code.CHILD}),
+                             Code.FACE_HIDDEN, Code.CLOTHES_LOOSE, Code.NOT_STANDING, Code.CHILD}),
         (of_nobody(view=ViewKind.FRONT), {Code.CUT_OFF, Code.PERSON_TOO_SMALL, Code.OTHER_VIEW,
                                       Code.ARMS_AGAINST_TRUNK, Code.CLOTHES_LOOSE,
-                                      Code.NOT_STANDING, Code.CHILD,
+                                      Code.NOT_STANDING, Code.CHILD, Code.FACE_HIDDEN,
                                       Code.CAMERA_ROLLED, Code.CAMERA_TOO_NEAR}),
         (by_points_alone(view=ViewKind.FRONT, points=face),
          {Code.NOBODY_FOUND, Code.SEVERAL_PEOPLE, Code.ARMS_AGAINST_TRUNK, Code.CLOTHES_LOOSE,
-          Code.NOT_STANDING, Code.CHILD,
+          Code.NOT_STANDING, Code.CHILD, Code.FACE_HIDDEN,
           Code.PERSON_TOO_SMALL, Code.OTHER_VIEW, Code.CAMERA_ROLLED, Code.CAMERA_TOO_NEAR}),
     ):  # fmt: skip
         unchecked = check_capture(nothing).unchecked

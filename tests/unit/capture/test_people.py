@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from fitter.capture.finding import Code, Finding, Unchecked
-from fitter.capture.people import nobody_else, somebody
+from fitter.capture.people import face, nobody_else, proportions, somebody
+from fitter.detection.person_detector import DetectedFace
 from fitter.request import Click
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
@@ -67,3 +69,43 @@ def test_who_cannot_be_told_from_somebody_else_is_not_measured_by_proposals():
 def test_without_a_detector_neither_is_known():
     for check in (somebody, nobody_else):
         assert isinstance(check(by_points_alone()), Unchecked)
+
+
+def test_two_faces_where_one_person_is_found_are_two_people():
+    faces = tuple(DetectedFace(score=0.9, middle=np.array([x, 76.0])) for x in (200.0, 250.0))
+    found = nobody_else(capture(replace(person(), faces=faces)))
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.SEVERAL_PEOPLE, Severity.BLOCKS)
+    assert nobody_else(capture(replace(person(), faces=faces), is_clicked=True)) is None
+    # The other face is that of somebody who was found beside them, and the caller has chosen.
+    beside = person(nose=(250.0, 76.0))
+    assert nobody_else(capture(replace(person(), faces=faces), beside, is_chosen=True)) is None
+
+
+def test_a_hidden_face_is_told():
+    assert face(capture()) is None
+    found = face(capture(replace(person(), hides_face=True)))
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.FACE_HIDDEN, Severity.HARMS)
+
+
+def test_eyes_far_apart_are_a_child_s_where_the_stature_is_seen():
+    apart = person(left_eye=(216.0, 72.0), right_eye=(184.0, 72.0))
+    found = proportions(capture(apart))
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.CHILD, Severity.BLOCKS)
+
+
+@pytest.mark.parametrize("guessed", [("left_ankle", "right_ankle"), ("left_eye",)])
+def test_of_a_stature_or_eyes_that_are_guessed_nothing_is_said_before_a_fit_or_after(guessed):
+    apart = person(left_eye=(216.0, 72.0), right_eye=(184.0, 72.0))
+    points = {name: replace(each, occluded=name in guessed) for name, each in apart.points.items()}
+    hidden = capture(replace(apart, points=points))
+    upright = {"trunk": np.array([0.0, -1.0, 0.0])}
+    upright |= {
+        f"{side}_{limb}": np.array([0.0, 1.0, 0.0])
+        for side in ("left", "right")
+        for limb in ("thigh", "shin")
+    }
+    for each in (hidden, replace(hidden, directions=upright)):
+        assert isinstance(proportions(each), Unchecked)

@@ -1,10 +1,12 @@
 """What the second network's numbers mean."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from fitter.detection.body_landmarks import MIRRORED, BodyLandmarks, LandmarkNetwork
-from fitter.detection.person_detector import DetectedPerson
+from fitter.detection.person_detector import DetectedPerson, FaceDetector
 from tests.unit.detection.fake_networks import FakeNetwork, Outputs
 
 NOSE, LEFT_WRIST, RIGHT_WRIST = 0, 15, 16
@@ -35,7 +37,70 @@ def answering(
             (1,): np.array([0.9]),
         }
 
-    return LandmarkNetwork(FakeNetwork(answer))
+    return LandmarkNetwork(FakeNetwork(answer), FaceDetector(FakeNetwork(faces(0.0))))
+
+
+def faces(certainty: float) -> Callable[[np.ndarray], Outputs]:
+    """A face in the middle of whatever is shown, as certain as this."""
+
+    def answer(_: np.ndarray) -> Outputs:
+        scores, boxes = np.full((896, 1), -50.0), np.zeros((896, 16))
+        scores[0] = np.log(max(certainty, 1e-9) / max(1.0 - certainty, 1e-9))
+        # The tip of the nose from the first anchor, in the middle of the first of 16 cells.
+        boxes[0, 8:10] = 60.0
+        return {(896, 1): scores, (896, 16): boxes}
+
+    return answer
+
+
+TRUNK = {11: (160.0, 80.0), 12: (96.0, 80.0), 23: (148.0, 170.0), 24: (108.0, 170.0)}
+"""Shoulders and hips of somebody who faces the camera, in pixels of the crop."""
+
+
+def looking(*sides: float, face: float, cut_off: float = -1.0) -> LandmarkNetwork:
+    """Sees a trunk from the front (1) or from behind (-1), as a picture is and in the mirror.
+
+    ``cut_off`` is what it sees where the head is cut off.
+    """
+    looks = iter(sides)
+
+    def answer(picture: np.ndarray) -> Outputs:
+        side = next(looks) if picture[0].any() else cut_off
+        landmarks, world = np.zeros((39, 5)), np.zeros((39, 3))
+        landmarks[:, :2] = 128.0
+        for index, (x, y) in TRUNK.items():
+            landmarks[index, :2] = 128.0 + side * (x - 128.0), y
+        return {
+            (195,): landmarks.ravel(),
+            (117,): world.ravel(),
+            (64, 64, 39): np.full((64, 64, 39), -50.0),
+            (256, 256, 1): np.full((256, 256, 1), -50.0),
+            (1,): np.array([0.9]),
+        }
+
+    return LandmarkNetwork(FakeNetwork(answer), FaceDetector(FakeNetwork(faces(face))))
+
+
+def is_front(network: LandmarkNetwork, **said: bool) -> bool:
+    person = DetectedPerson(score=0.9, middle=np.array([200.0, 200.0]), rim=np.array([200.0, 97.6]))
+    white = np.full((400, 400, 3), 255, dtype=np.uint8)
+    found = network.landmarks(white, person, **said)
+    return bool(found.pixels[11, 0] > found.pixels[12, 0])
+
+
+def test_who_is_seen_from_behind_is_left_so():
+    assert not is_front(looking(-1.0, -1.0, face=0.1))
+    assert not is_front(looking(-1.0, -1.0, face=0.9, cut_off=1.0))
+
+
+def test_where_no_face_is_seen_trunk_and_legs_say_which_way_somebody_faces():
+    assert is_front(looking(-1.0, -1.0, face=0.1, cut_off=1.0))
+    assert not is_front(looking(-1.0, -1.0, face=0.1, cut_off=1.0), from_behind=True)
+
+
+def test_looks_that_contradict_are_not_averaged():
+    for sides in ((1.0, -1.0), (-1.0, 1.0)):
+        assert is_front(looking(*sides, face=0.1))
 
 
 def seen(network: LandmarkNetwork, *, rim: tuple[float, float] = (200.0, 97.6)) -> BodyLandmarks:

@@ -3,11 +3,13 @@
 import importlib.util
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from fitter.detection.weights import (
     BODY_LANDMARKS,
+    FILES,
     PERSON_DETECTOR,
     checked_weights,
     detector_fault,
@@ -15,19 +17,25 @@ from fitter.detection.weights import (
 from fitter.errors import DetectorUnavailableError
 
 
-def test_the_installed_package_has_both_files():
+def test_the_installed_package_has_the_files():
     assert detector_fault() is None
     weights = checked_weights()
     assert weights.person_detector.name == PERSON_DETECTOR.name
     assert weights.body_landmarks.name == BODY_LANDMARKS.name
 
 
-def test_a_folder_may_hold_them(tmp_path):
+def files_in(folder: Path) -> list[Path]:
     weights = checked_weights()
-    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector.read_bytes())
-    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks.read_bytes())
+    kept = weights.person_detector, weights.body_landmarks, weights.face_detector
+    for each in kept:
+        (folder / each.name).write_bytes(each.read_bytes())
+    return [folder / each.name for each in kept]
+
+
+def test_a_folder_may_hold_them(tmp_path):
+    kept = files_in(tmp_path)
     found = checked_weights(tmp_path)
-    assert (found.person_detector.parent, found.body_landmarks.parent) == (tmp_path, tmp_path)
+    assert [found.person_detector, found.body_landmarks, found.face_detector] == kept
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path):
@@ -37,9 +45,8 @@ def test_a_file_that_is_not_there_is_named(tmp_path):
 
 
 def test_another_file_of_the_same_name_is_refused(tmp_path):
-    weights = checked_weights()
-    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector.read_bytes())
-    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks.read_bytes()[:-1] + b"x")
+    _, landmarks, _ = files_in(tmp_path)
+    landmarks.write_bytes(landmarks.read_bytes()[:-1] + b"x")
     with pytest.raises(DetectorUnavailableError, match=BODY_LANDMARKS.name):
         checked_weights(tmp_path)
 
@@ -53,7 +60,7 @@ def test_without_runtime_or_weights_there_is_no_detector(monkeypatch, tmp_path, 
         importlib.util, "find_spec", lambda name: None if name == gone else found(name)
     )
     # Files that happen to lie in the current folder are nobody's weights.
-    for each in (PERSON_DETECTOR, BODY_LANDMARKS):
+    for each in FILES:
         (tmp_path / each.name).touch()
     monkeypatch.chdir(tmp_path)
     assert detector_fault() is not None

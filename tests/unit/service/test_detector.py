@@ -15,7 +15,7 @@ from service.settings import SettingError, Settings
 from service.submissions.submission import detector_is_installed
 
 
-def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
+def test_a_folder_counts_once_it_has_the_files(tmp_path: Path):
     for name in DETECTOR_FILES:
         assert not detector_is_installed(tmp_path)
         (tmp_path / name).touch()
@@ -35,8 +35,8 @@ def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Pat
 
 def test_files_that_are_others_are_an_unusable_setting(tmp_path: Path):
     given = weights.checked_weights()
-    (tmp_path / DETECTOR_FILES[0]).write_bytes(given.person_detector.read_bytes())
-    (tmp_path / DETECTOR_FILES[1]).write_bytes(given.body_landmarks.read_bytes())
+    for each in (given.person_detector, given.body_landmarks, given.face_detector):
+        (tmp_path / each.name).write_bytes(each.read_bytes())
     check_detector(Settings(detector_dir=tmp_path))
     (tmp_path / DETECTOR_FILES[1]).write_bytes(b"something else")
     with pytest.raises(SettingError) as caught:

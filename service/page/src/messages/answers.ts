@@ -94,6 +94,7 @@ export const answers = {
     "clothes-loose": "Wear close-fitting clothes, or give the weight. Under loose clothes the body is only estimated.",
     "skin-not-found":
       "Use a picture in colour that shows the face, or say how the clothes fit. Without skin to go by, they are taken to be loose.",
+    "face-hidden": "Show your face: it tells which way you face, and the colour of your skin.",
     covered:
       "Take the picture with nothing and nobody in front of the person or beside them. Something there covers or touches them, or looks like them: a part of the outline does not count, so ranges are wider.",
     "not-standing": "Stand upright, with straight legs.",
