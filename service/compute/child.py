@@ -32,7 +32,7 @@ from service.compute.messages import (
 )
 from service.compute.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
 from service.jobs.records import Report
-from service.process.confinement import write_only_below
+from service.process.confinement import confine
 from service.process.logs import configure_logging, log_context
 
 LOG: Final = logging.getLogger(__name__)
@@ -50,7 +50,7 @@ def work(setup: ChildSetup, connection: Connection) -> None:
     # A crash in a decoder leaves the places it passed through, and nothing of what it read.
     faulthandler.enable()
     _limit(setup)
-    write_only_below(tempfile.gettempdir())
+    _confine(setup)
     given = _follow_owner(connection)
     while True:
         # Nothing here holds a task on to the next: it goes out of scope with the call.
@@ -120,6 +120,15 @@ def _limit(setup: ChildSetup) -> None:
     score = Path("/proc/self/oom_score_adj")
     if score.exists():
         score.write_text(str(OOM_SCORE))
+
+
+def _confine(setup: ChildSetup) -> None:
+    """Give up what no task needs; temporary files lie in a folder of its own from here on."""
+    own = Path(tempfile.gettempdir(), str(os.getpid()))
+    own.mkdir(mode=0o700, exist_ok=True)
+    os.environ["TMPDIR"] = tempfile.tempdir = str(own)
+    kernels = os.environ.get("NUMBA_CACHE_DIR")
+    confine(readable=[*setup.readable, *([kernels] if kernels else [])], writable=str(own))
 
 
 def _call_process(name: str) -> None:

@@ -2,12 +2,15 @@
 
 import contextlib
 import logging
+import shutil
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
+from pathlib import Path
 from typing import Final
 
 from service.compute import child
@@ -185,4 +188,5 @@ def end(connection: Connection, process: ForkServerProcess) -> None:
     connection.close()
     process.kill()
     process.join()
+    shutil.rmtree(Path(tempfile.gettempdir(), str(process.pid)), ignore_errors=True)
     process.close()

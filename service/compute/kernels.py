@@ -7,6 +7,7 @@ process has a folder with links to what lies there.
 """
 
 import hashlib
+import importlib
 import io
 import json
 import logging
@@ -97,6 +98,17 @@ def package() -> Path:
     found = find_spec("fitter")
     assert found is not None
     return Path(next(iter(found.submodule_search_locations or ())))
+
+
+def import_kernels() -> None:
+    """Import all modules of kernels: Numba asks then whether it may keep them, and ends over a no.
+
+    Training's are left out.
+    """
+    for source in sorted(package().rglob("_*kernels.py")):
+        module = ".".join(source.relative_to(package().parent).with_suffix("").parts)
+        if "training" not in source.parts:
+            importlib.import_module(module)
 
 
 def _folders() -> Iterator[tuple[Path, str]]:

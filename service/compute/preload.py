@@ -9,6 +9,7 @@ from typing import Final
 
 from service.compute.kernels import (
     VARIABLE,
+    import_kernels,
     keep_kernels,
     link_kernels,
     make_kernels_ready,
@@ -27,6 +28,7 @@ def _load(settings: Settings) -> None:
     from fitter.fits.equipment import prepared_model
     from fitter.vocabulary.choices import Gender
 
+    import_kernels()
     # Without a detector, whoever needs it is told.
     with suppress(DetectorUnavailableError):
         installed_detector(settings.detector_dir)
@@ -42,12 +44,18 @@ def _load(settings: Settings) -> None:
             prepared_model(gender, models=settings.models_dir)
 
 
+def _keep_no_more() -> None:
+    """Have Numba keep in memory alone what a child compiles."""
+    from numba.core.caching import Cache
+
+    Cache.save_overload = lambda *_: None
+
+
 if VARIABLE not in os.environ:
     # Imported by another than a worker, who has done it.
     settle_folders()
 
-# Whoever decodes pictures can write to this folder alone, and nobody reads what it writes there
-# but others that are forked here: what is kept is copied before.
+# Children load kernels from this folder and cannot write there: others would run what one wrote.
 KEPT: Final = Path(os.environ[VARIABLE]) if os.environ.get(VARIABLE) else None
 OWN: Final = Path(tempfile.mkdtemp(prefix="kernels-"))
 link_kernels(OWN, KEPT)
@@ -56,3 +64,4 @@ os.environ[VARIABLE] = str(OWN)
 with ending_with_the_parent():
     _load(Settings())
     keep_kernels(OWN, KEPT)
+    _keep_no_more()

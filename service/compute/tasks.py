@@ -15,6 +15,7 @@ from api_schemas.problems import FieldProblem, Problem, field_problem
 from api_schemas.results import FitResult, ResultFile
 from service.jobs.inputs import RESULT
 from service.jobs.records import Report
+from service.process.confinement import readable_paths
 from service.settings import Settings
 
 PRODUCT: Final = "product"
@@ -36,7 +37,8 @@ class ChildSetup:
 
     ``name`` is what the process is called where processes are listed, ``tasks`` the module of its
     table. ``models`` is the folder of the body models, None for those shipped with the package;
-    ``detector`` that of the detector's weights, None for those of their package.
+    ``detector`` that of the detector's weights, None for those of their package. ``readable`` are
+    the folders that it may read.
     """
 
     name: str
@@ -48,6 +50,7 @@ class ChildSetup:
     memory_mb: int = 4_096
     log_level: str = "INFO"
     log_format: str = "text"
+    readable: tuple[str, ...] = ()
 
 
 def child_setup(settings: Settings, *, name: str, tasks: str, niceness: int = 0) -> ChildSetup:
@@ -62,6 +65,7 @@ def child_setup(settings: Settings, *, name: str, tasks: str, niceness: int = 0)
         memory_mb=settings.child_memory_mb,
         log_level=settings.log_level,
         log_format=settings.log_format,
+        readable=readable_paths(settings),
     )
 
 

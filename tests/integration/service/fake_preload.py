@@ -22,4 +22,4 @@ if FAULT in os.environ and Path(os.environ[FAULT]).exists():
     os._exit(1)
 
 # The fake pipeline writes its notes where tests read them.
-child.write_only_below = lambda _: False
+child.confine = lambda **_: False

@@ -14,14 +14,15 @@ from service.compute import lanes
 from service.compute.fork_server import ForkServer, end
 from service.compute.lanes import QuickLane
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.compute.tasks import ChildSetup
+from service.compute.tasks import child_setup
 from service.estimates.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
+from service.settings import Settings
 from tests.integration.service.fake_answers import GATE, GLB
 from tests.integration.service.harness import PATIENCE_S, eventually, is_running
 from tests.process_table import processes_with
 
-SETUP = ChildSetup(
-    name="estimator", tasks="tests.integration.service.fake_answers", max_pixels=1_000_000
+SETUP = child_setup(
+    Settings(max_pixels=1_000_000), name="estimator", tasks="tests.integration.service.fake_answers"
 )
 
 

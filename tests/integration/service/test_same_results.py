@@ -8,13 +8,14 @@ import pytest
 from api_schemas.products import ProductRequest
 from service.compute.fork_server import Child, ForkServer
 from service.compute.messages import DoneMessage, ProgressMessage, TaskMessage
-from service.compute.tasks import OPTIONS, PRODUCT, ChildSetup
+from service.compute.tasks import OPTIONS, PRODUCT, child_setup
 from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
 from service.jobs.records import FIT
+from service.settings import Settings
 from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
-SETUP = ChildSetup(name="job", tasks="service.compute.pipeline", max_pixels=MAX_PIXELS)
+SETUP = child_setup(Settings(max_pixels=MAX_PIXELS), name="job", tasks="service.compute.pipeline")
 
 KINDS = ("composition", "caricature", "pose", "animation")
 
