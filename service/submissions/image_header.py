@@ -6,6 +6,7 @@ libraries for WebP and HEIC: the API has it done in a child (:mod:`service.compu
 
 import contextlib
 import io
+import re
 import warnings
 from collections.abc import Callable
 from typing import Final
@@ -21,10 +22,16 @@ TURNED: Final = range(5, 9)
 """Orientations that swap width and height."""
 
 
+MARKER: Final = re.compile(rb"\xff+([^\x00\xd0-\xd7\xff])")
+"""Code of a JPEG's next marker; what stands among coded pixels is none."""
+FIRST_MARKER, END_OF_PICTURE, SCAN = 0xC0, 0xD9, 0xDA
+
+
 class ImageHeader(WireModel):
     """Kind and upright size (EXIF orientation applied) of a picture.
 
-    ``focal_length_35mm`` is the equivalent in its EXIF data, None if there is none.
+    ``focal_length_35mm`` is the equivalent in its EXIF data, None if there is none. ``scans`` says
+    how often a decoder goes over all pixels, as it does for a progressive JPEG.
     """
 
     media_type: str
@@ -32,6 +39,7 @@ class ImageHeader(WireModel):
     height: int
     animated: bool = False
     focal_length_35mm: float | None = None
+    scans: int = 1
 
 
 class UnknownImageError(Exception):
@@ -85,7 +93,21 @@ def read_image_header(content: bytes) -> ImageHeader:
         height=height,
         animated=kind in ("PNG", "WEBP") and bool(getattr(picture, "is_animated", False)),
         focal_length_35mm=exif.focal_length_35mm,
+        scans=_scans(content) if kind == "JPEG" else 1,
     )
+
+
+def _scans(content: bytes) -> int:
+    """Number of a JPEG's scans, found as a decoder finds them, from marker to marker."""
+    at, scans = 2, 0
+    while (found := MARKER.search(content, at)) is not None:
+        code, at = found[1][0], found.end()
+        if code == END_OF_PICTURE:
+            break
+        scans += code == SCAN
+        if code >= FIRST_MARKER:
+            at += int.from_bytes(content[at : at + 2])
+    return scans
 
 
 def kind_of(content: bytes) -> str:

@@ -30,6 +30,10 @@ from service.submissions.image_header import (
 )
 from service.submissions.refusal import of_view, refused
 
+MOST_SCANS: Final = 100
+"""Each scan of a JPEG costs a decoder as much time as all its pixels do, however few bytes it has:
+800 of 300 bytes took ten seconds."""
+
 ACCEPTED_KINDS: Final = "JPEG, PNG, WebP or HEIC"
 
 DETECTOR_MISSING: Final = "detector-not-installed"
@@ -113,8 +117,9 @@ def check_picture(
     Raises
     ------
     RefusedError
-        If it is empty, of another kind, damaged, animated, a HEIC where none are decoded, or too
-        large: a JPEG may have ``max_pixels``, all else what is decoded whole.
+        If it is empty, of another kind, damaged, animated, a HEIC where none are decoded, of more
+        scans than ``MOST_SCANS``, or too large: a JPEG may have ``max_pixels``, all else what is
+        decoded whole.
     """
     if not content:
         raise refused(
@@ -164,6 +169,15 @@ def check_picture(
                 code="image-animated",
                 reason="The file holds an animation.",
                 remedy="Send a single picture.",
+            )
+        )
+    if header.scans > MOST_SCANS:
+        raise refused(
+            FieldProblem(
+                field=field,
+                code="image-too-many-scans",
+                reason=f"The JPEG has {header.scans} scans; {MOST_SCANS} are accepted.",
+                remedy="Save the picture anew; a progressive JPEG has about ten.",
             )
         )
     is_reducible = header.media_type == "image/jpeg" and field != MASK

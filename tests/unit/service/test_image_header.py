@@ -130,3 +130,28 @@ def test_a_heic_that_nothing_decodes_is_told_apart(monkeypatch):
     monkeypatch.setattr(image_header, "decodes_heif", lambda: False)
     with pytest.raises(UndecodedHeicError):
         read_image_header(EIGHT_BITS)
+
+
+def with_scans(count: int, *, hidden: bytes = b"") -> bytes:
+    """A progressive JPEG whose last scan is there so often."""
+    content = encoded("JPEG", (64, 48), progressive=True)
+    last = content.rindex(b"\xff\xda")
+    once = read_image_header(content).scans
+    return content[:last] + hidden + content[last:-2] * (count - once + 1) + content[-2:]
+
+
+def test_scans_are_those_that_a_decoder_goes_through():
+    assert read_image_header(encoded("JPEG", (64, 48))).scans == 1
+    assert read_image_header(encoded("JPEG", (64, 48), progressive=True)).scans in range(6, 12)
+    many = with_scans(800)
+    assert read_image_header(many).scans == 800
+    assert Image.open(io.BytesIO(many)).convert("L").size == (64, 48)
+
+
+def test_scans_are_neither_hidden_nor_found_where_there_are_none():
+    comment = b"\xff\xda" * 200
+    told = b"\xff\xfe" + (len(comment) + 2).to_bytes(2) + comment
+    plain = encoded("JPEG", (64, 48))
+    assert read_image_header(plain[:2] + told + plain[2:] + comment).scans == 1
+    # Among coded pixels a decoder passes over a marker of no meaning and its length.
+    assert read_image_header(with_scans(300, hidden=b"\xff\x02\xff\xff")).scans == 300

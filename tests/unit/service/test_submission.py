@@ -11,9 +11,15 @@ from api_schemas.picture import ViewRequest
 from api_schemas.points import AUTO, Point
 from api_schemas.questions import PointsRequest
 from fitter.vocabulary.points import LIMB_POINT_NAMES, POINT_NAMES
+from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError, _meant_field, parsed
-from service.submissions.submission import CheckedSubmission, check_picture, check_submission
+from service.submissions.submission import (
+    MOST_SCANS,
+    CheckedSubmission,
+    check_picture,
+    check_submission,
+)
 from tests.heif_files import EIGHT_BITS
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -305,6 +311,7 @@ def test_text_that_is_not_json_is_malformed():
         (b"plain text", 415, "not-an-image"),
         (b"\x89PNG\r\n\x1a\n", 422, "image-damaged"),
         (scripted_image(width=20_000, height=20_000), 422, "image-too-large"),
+        (load_sample().image[:-2] + b"\xff\xda\0\x02" * MOST_SCANS, 422, "image-too-many-scans"),
     ],
 )
 def test_a_bad_picture_is_refused(field, content, status, code):
