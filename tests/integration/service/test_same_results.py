@@ -25,7 +25,7 @@ Job = tuple[str, dict[str, bytes]]
 
 @pytest.fixture(scope="module")
 def processes() -> ForkServer:
-    return ForkServer("service.compute.pipeline")
+    return ForkServer("service.compute.preload")
 
 
 @pytest.fixture(scope="module")
