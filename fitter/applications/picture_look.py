@@ -17,11 +17,9 @@ from fitter.applications.picture_surface import (
     Colours,
     PictureSurface,
     SurfacePoints,
-    smooth_step,
 )
-from fitter.applications.rings import Region, RingCoordinates
+from fitter.applications.rings import RingCoordinates
 from fitter.applications.surface_field import extend_values
-from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
 from fitter.numerics.rotations import unit_vectors
 
@@ -37,53 +35,8 @@ MOST_TURNED_DEG = 55.0
 LEAST_OF_FACE = 0.35
 """Mean belief of the half of a face that is seen better, from which the face is believed."""
 
-LEAST_SKIN = 40
-"""Seen vertices of face and neck, from which the colour of skin is known."""
-
-LEAST_BARE = 0.25
-"""Of the seen hands, that is skin's colour: hands with less are in gloves."""
-
-CHROMA = (0.4, 0.8)
-"""Skin whose channels are in the same ratio to the face's within the first (of logarithms, shade
-leaves it) is believed, beyond the second it is something else."""
-
-LEAST_HAND = 0.001
-"""Share of a hand from which a vertex counts as one's: regions fade out without an end."""
-
 DARKEST = 0.004
 """Of linear light; below it noise dominates."""
-
-
-def distrust_hands(look: Look, model: BodyModel) -> Look:
-    """Less belief where the picture cannot show the hands."""
-    rings = RingCoordinates.of(model)
-    vertices = at_vertices(model)
-    colours, belief = look(vertices)
-    skin = _skin_of_bare_hands(colours, belief >= BELIEVED, rings)
-    if skin is None:
-        return look
-    hands = rings.shares[Region.HANDS]
-
-    def trusted(points: SurfacePoints) -> tuple[Colours, Beliefs]:
-        colours, belief = look(points)
-        near = points.near(hands > LEAST_HAND)
-        off = smooth_step(_away(colours[near], skin), *CHROMA)
-        belief[near] *= 1.0 - points.some(near).of(hands) * off
-        return colours, belief
-
-    return trusted
-
-
-def limit_to_shown(look: Look, surface: PictureSurface) -> Look:
-    """The same look, at those points alone that the picture may show; 0 at all others."""
-
-    def looked(points: SurfacePoints) -> tuple[Colours, Beliefs]:
-        shown = surface.may_show(points)
-        colours, belief = np.zeros((len(points.corners), 3)), np.zeros(len(points.corners))
-        colours[shown], belief[shown] = look(points.some(shown))
-        return colours, belief
-
-    return looked
 
 
 def at_vertices(model: BodyModel) -> SurfacePoints:
@@ -108,24 +61,6 @@ def face_to_leave_out(surface: PictureSurface, model: BodyModel) -> Float[np.nda
     if max(halves) >= LEAST_OF_FACE and turned <= MOST_TURNED_DEG:
         return np.zeros_like(features)
     return features
-
-
-def _skin_of_bare_hands(
-    colours: Colours, seen: Bool[np.ndarray, " m"], rings: RingCoordinates
-) -> Vector3 | None:
-    """The face's colour, unless it is unknown or the hands are in gloves."""
-    face, hands = (seen & (rings.shares[each] > 0.5) for each in (Region.FACE, Region.HANDS))
-    if np.count_nonzero(face) < LEAST_SKIN or not hands.any():
-        return None
-    skin = np.median(colours[face], axis=0)
-    bare = _away(colours[hands], skin) < CHROMA[0]
-    return skin if bare.mean() >= LEAST_BARE else None
-
-
-def _away(colours: Colours, skin: Vector3) -> Float[np.ndarray, " k"]:
-    """Distance of the channels' ratios from skin's."""
-    ratio = np.maximum(colours, DARKEST) / np.maximum(skin, DARKEST)
-    return np.ptp(np.log(ratio.T), axis=0)
 
 
 FORGOTTEN_M = 0.06

@@ -23,10 +23,6 @@ GRAZING, SQUARE = 0.2, 0.6
 """Cosines between normal and view: below the first a surface is not read from a picture, from the
 second on it is believed wholly. In between a pixel spans more and more of the surface."""
 
-TURNED_AWAY = 0.02
-"""A triangle is turned away if its corners are by more than this cosine: over it the view turns by
-less."""
-
 CONTOUR_M = 0.008
 """A fitted contour lies so far off the person's: nearer to one, a pixel may show what is behind."""
 
@@ -133,12 +129,6 @@ class PictureSurface:
             linear_rgb=linear_rgb,
             clear=_off_contours(rendering, shown) * _off(hair, _width_px(rendering, CONTOUR_M)),
         )
-
-    def may_show(self, points: SurfacePoints) -> Integer[np.ndarray, " n"]:
-        """Which points are not turned away for certain: all others are believed by 0."""
-        rendering = self.rendering
-        cosines = -(unit_vectors(rendering.vertices) * rendering.vertex_normals).sum(axis=1)
-        return points.near(cosines > -TURNED_AWAY)
 
     @cached_property
     def _channels(self) -> tuple[GreyImage, ...]:

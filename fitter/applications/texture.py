@@ -19,10 +19,8 @@ from fitter.applications.picture_look import (
     BothSides,
     Look,
     at_vertices,
-    distrust_hands,
     extend_light,
     face_to_leave_out,
-    limit_to_shown,
 )
 from fitter.applications.picture_surface import (
     Beliefs,
@@ -207,7 +205,7 @@ def _texture(
     model = evaluator.model
     atlas = atlas_of(model, size)
     points = SurfacePoints(corners=model.triangles[atlas.triangles], weights=atlas.weights)
-    sides = BothSides.of(limit_to_shown(distrust_hands(look, model), surface), model)
+    sides = BothSides.of(look, model)
     found, seen, mirrored = sides.at(points)
     no_face = face_to_leave_out(surface, model)
     hidden = _hidden_colours(sides, no_face, size, points, found, seen + mirrored)
