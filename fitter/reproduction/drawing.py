@@ -98,20 +98,15 @@ PRINTED_TABLE: Final = Table(
 
 def table_1(title: str, subject: Subject, results: Sequence[FitResult]) -> Table:
     """Measurements of fits of the subject's pictures."""
-    return Table(
-        title=title,
-        rows=tuple(
-            tuple(
-                (
-                    _measured(_outline_stage(result), name),
-                    _measured(result.stages[-1], name),
-                    subject.measurements[name],
-                )
-                for _, name in COLUMNS
-            )
-            for result in results
-        ),
-    )
+
+    def sizes(result: FitResult) -> Sizes:
+        stages = (_outline_stage(result), result.stages[-1])
+        found = [{each.name: each.value for each in stage.measurements} for stage in stages]
+        return tuple(
+            (found[0][name], found[1][name], subject.measurements[name]) for _, name in COLUMNS
+        )
+
+    return Table(title=title, rows=tuple(sizes(result) for result in results))
 
 
 def table_markdown(table: Table) -> str:
@@ -222,10 +217,6 @@ def _error_map(
 def _outline_stage(result: FitResult) -> FitStage:
     """The stage by silhouette and edges; the last one where there is none of it."""
     return next((each for each in result.stages if each.name == "SE"), result.stages[-1])
-
-
-def _measured(stage: FitStage, name: str) -> float:
-    return next(each.value for each in stage.measurements if each.name == name)
 
 
 def reproduce(

@@ -5,14 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
+from fitter.applications.caricature import caricature_of_most_unusual
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose, rig_of
 from fitter.applications.texture import linear_picture, picture_texture
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
-from fitter.body.shape_space import height_of_shape
 from fitter.export.bundle import reflectance_pictures
 from fitter.export.display import finer, to_levels
 from fitter.export.gltf_mesh import BodyTexture
@@ -38,13 +37,12 @@ _MOMENTS: Final = (0.0, 0.17, 0.42)
 
 _DEGREES: Final = (25.0, 60.0, -30.0)
 _FACTOR: Final = 2.0
-_LOOKS_FACTOR: Final = 1.7
 _SAMPLES: Final = 2
 
 
 def figure_6() -> Figure:
     """Three standard deviations either way: men above, women below."""
-    rows, changes = [], []
+    rows: list[Levels] = []
     for gender in (Gender.MALE, Gender.FEMALE):
         prepared = prepared_model(gender)
         evaluator = prepared.operators.evaluator
@@ -58,9 +56,6 @@ def figure_6() -> Figure:
                 titles.append(f"{title}: {shape[axis]:+.0f} SD")
                 at_rest = prepared.measuring.canonical.at(shape)
                 views.append(BodyView(label="", vertices=at_rest, degrees=30.0))
-            if axis:
-                low, high = (height_of_shape(evaluator, shape) for shape in shapes)
-                changes.append(1000.0 * abs(high - low))
         panels = np.split(preview(views, evaluator.model.triangles), len(views), axis=1)
         rows.append(row(list(zip(titles, panels, strict=True)), height_px=_ROW_PX))
     return Figure(
@@ -69,7 +64,7 @@ def figure_6() -> Figure:
         caption=(
             "The first pair of each row is three standard deviations either way along the height "
             "axis, the others along the first three axes that keep the height. Men above, women "
-            f"below. Along those the stature changes by {max(changes):.3f} mm at most."
+            "below."
         ),
         differs="Learned from synthetic bodies; coefficients are whitened before axes are turned.",
         picture=stacked(rows),
@@ -132,32 +127,26 @@ def figure_9(request: FitRequest, result: FitResult) -> Figure:
         for frame, each in zip(frames, seen, strict=True)
     ]
     one = caricature_of_most_unusual(evaluator, shape, _FACTOR)
-    looks = caricature_of_looks(evaluator, shape, _LOOKS_FACTOR)
     canonical = prepared_model(person.gender).measuring.canonical
-    resting = [_turned(canonical.at(each), 30.0) for each in (shape, one.shape, looks.shape)]
+    resting = [_turned(canonical.at(each), 30.0) for each in (shape, one.shape)]
     at_rest = common_camera(resting)
-    plain, changed, whole = (coloured_body(each, model.triangles, at_rest) for each in resting)
+    plain, changed = (coloured_body(each, model.triangles, at_rest) for each in resting)
     return Figure(
         name="figure_9",
         title="Figure 9: new poses and a caricature",
         caption=(
             "The picture; the fitted body with the picture's texture at moments of a walk; the "
             f"body; the same with its most unusual coefficient, number {one.coefficient}, "
-            f"multiplied by {_FACTOR:g}, as in the paper; and with all but the height's "
-            f"multiplied by {_LOOKS_FACTOR:g}. {100 * texture.seen_share:.0f} % of the texture "
-            "were seen, the rest was mirrored or continued."
+            f"multiplied by {_FACTOR:g}. {100 * texture.seen_share:.0f} % of the texture were "
+            "seen, the rest was mirrored or continued."
         ),
-        differs=(
-            "One coefficient that deviates most often hardly shows, so that all are exaggerated "
-            "too. The walk is drawn from published curves of gait."
-        ),
+        differs="The walk is drawn from published curves of gait; one coefficient hardly shows.",
         picture=row(
             [
                 ("picture", to_levels(result.views[0].pictures.image)),
                 *moments,
                 ("fitted", plain),
                 (f"one coefficient times {_FACTOR:g}", changed),
-                (f"all times {_LOOKS_FACTOR:g}", whole),
             ]
         ),
     )

@@ -6,7 +6,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from fitter.arrays import Shape
+from fitter.arrays import Shape, Vertices
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.energies.edges import edge_cost_map
@@ -184,17 +184,11 @@ def _with_clicks(picture: np.ndarray, clicks: ClickedPoints) -> Levels:
 
 def figure_4(request: FitRequest) -> Figure:
     """Without and with the edges of the picture: of somebody part of whom hides another."""
-    without = fitted(request, Cues.SE, Paper(energies=_WITHOUT_EDGES))
-    with_edges = fitted(request, Cues.SE, Paper())
+    found = [fitted(request, Cues.SE, paper) for paper in (Paper(energies=_WITHOUT_EDGES), Paper())]
     operators = prepared_model(request.person.gender).operators
-    found = (without, with_edges)
-    seen = [
-        in_profile(
-            each.found.posed_vertices, each.person.body.translation, each.person.tilt, degrees=60.0
-        )
-        for each in found
-    ]
+    seen = [_from_the_right(each, 60.0) for each in found]
     camera = common_camera(seen)
+    titles = ("silhouette alone, from the right", "with edges, from the right")
     rows = [
         row(
             [
@@ -204,13 +198,7 @@ def figure_4(request: FitRequest) -> Figure:
                 (title, coloured_body(body, each.triangles, camera, colour)),
             ]
         )
-        for each, body, title, colour in zip(
-            found,
-            seen,
-            ("silhouette alone, from the right", "with edges, from the right"),
-            (RED, GREEN),
-            strict=True,
-        )
+        for each, body, title, colour in zip(found, seen, titles, (RED, GREEN), strict=True)
     ]
     costs = [each.energies["silhouette"] for each in found]
     return Figure(
@@ -234,20 +222,15 @@ def figure_4(request: FitRequest) -> Figure:
 def figure_5(request: FitRequest, held: FitResult) -> Figure:
     """The height free and held, of the same picture; ``held`` is the fit by E1 that holds it."""
     free = fitted(request, Cues.SE, Paper(free_height=True))
-    bodies = (free, held)
-    front = [each.found.posed_vertices for each in bodies]
-    side = [
-        in_profile(each.found.posed_vertices, each.person.body.translation, each.person.tilt)
-        for each in bodies
-    ]
+    front = [each.found.posed_vertices for each in (free, held)]
+    side = [_from_the_right(each, 90.0) for each in (free, held)]
     in_front, beside = common_camera(front), common_camera(side)
-    triangles = held.triangles
-    panels: list[tuple[str, Levels]] = [("picture", to_levels(held.views[0].pictures.image))]
-    for label, colour, index in (("free", MAGENTA, 0), ("held", GREEN, 1)):
-        title = f"height {label}: {100 * bodies[index].found.height_m:.0f} cm"
+    panels = [("picture", to_levels(held.views[0].pictures.image))]
+    for index, label, colour, result in ((0, "free", MAGENTA, free), (1, "held", GREEN, held)):
+        title = f"height {label}: {100 * result.found.height_m:.0f} cm"
         panels += [
-            (title, coloured_body(front[index], triangles, in_front, colour)),
-            ("from the right", coloured_body(side[index], triangles, beside, colour)),
+            (title, coloured_body(front[index], held.triangles, in_front, colour)),
+            ("from the right", coloured_body(side[index], held.triangles, beside, colour)),
         ]
     return Figure(
         name="figure_5",
@@ -274,6 +257,13 @@ def fitted(request: FitRequest, cues: Cues, paper: Paper | None = None) -> FitRe
             views=tuple(replace(view, cues=cues) for view in request.views),
             choices=replace(request.choices, paper=paper, force=True),
         )
+    )
+
+
+def _from_the_right(result: FitResult, degrees: float) -> Vertices:
+    person = result.person
+    return in_profile(
+        result.found.posed_vertices, person.body.translation, person.tilt, degrees=degrees
     )
 
 

@@ -23,20 +23,9 @@ from fitter.render.camera import Camera
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Figure:
-    """One of the paper's figures, drawn anew.
+    """One of the paper's figures, drawn anew; ``differs`` says what is not as in the paper's.
 
-    Attributes
-    ----------
-    name
-        ``figure_2``: of its file.
-    title
-        Its number in the paper, and what it is about.
-    caption
-        What is to be seen.
-    differs
-        What is not as in the paper's.
-    picture
-        (h, w, 3) sRGB levels.
+    ``name`` is that of its file, ``picture`` (h, w, 3) sRGB levels.
     """
 
     name: str

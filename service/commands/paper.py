@@ -27,7 +27,7 @@ _INTRODUCTION: Final = """# The paper, reproduced
 
 The figures and the table of P. Guan, A. Weiss, A. O. Bălan and M. J. Black, Estimating Human Shape
 and Pose from a Single Image, ICCV 2009, drawn from fits of this package. Pictures are rendered
-people, but for a painting that was given. Fig. 1 is an overview of the others.
+people, but for a painting that was given.
 """
 _TABLE_NOTE: Final = """## Table 1
 
@@ -49,23 +49,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(parsed: argparse.Namespace) -> int:
-    """Draw what the command line asks for."""
-    return run_command(
-        "paper", lambda settings: draw_paper(parsed.output, parsed.painting, settings)
-    )
+    """Draw all figures into a folder, with a page of them."""
 
+    def draw(settings: Settings) -> int:
+        page = told(lambda: _drawn(parsed.output, parsed.painting, settings))
+        if page is None:
+            return UNUSABLE
+        path = parsed.output / "index.md"
+        path.write_text(page)
+        print(f"{path} shows them all.")
+        return 0
 
-def draw_paper(output: Path, painting: tuple[Path, Path] | None, settings: Settings) -> int:
-    """Draw all figures into a folder, with a page of them; return the exit status.
-
-    ``painting`` is a picture and a file with its request.
-    """
-    page = told(lambda: _drawn(output, painting, settings))
-    if page is None:
-        return UNUSABLE
-    (output / "index.md").write_text(page)
-    print(f"{output / 'index.md'} shows them all.")
-    return 0
+    return run_command("paper", draw)
 
 
 def packaged_pictures(settings: Settings) -> tuple[fitter_request.FitRequest, Subject]:
