@@ -20,9 +20,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from api_schemas.problems import problem
 from service.api.limits import RateLimit
-from service.api.problems import ProblemError, problem_response
+from service.api.problems import ProblemError, problem_error, problem_response
 from service.jobs.keys import ApiKey, KeyRing, Role, hash_key
 from service.jobs.records import EngineUnavailableError
 from service.setting_types import is_loopback
@@ -231,34 +230,33 @@ def _split(address: str) -> SplitResult:
 
 
 def _unauthorized(*, detail: str) -> ProblemError:
-    return ProblemError(
-        problem("unauthorized", detail=detail, remedy=KEY_REMEDY, field="Authorization"),
+    return problem_error(
+        slug="unauthorized",
+        detail=detail,
+        remedy=KEY_REMEDY,
+        field="Authorization",
         headers={"WWW-Authenticate": 'Bearer realm="maquette"'},
     )
 
 
 def _forbidden(*, code: str, detail: str, remedy: str, field: str) -> ProblemError:
-    return ProblemError(problem("forbidden", code=code, detail=detail, remedy=remedy, field=field))
+    return problem_error(slug="forbidden", code=code, detail=detail, remedy=remedy, field=field)
 
 
 def _too_many(retry_after_s: int) -> ProblemError:
-    return ProblemError(
-        problem(
-            "too-many-requests",
-            code="rate-limit",
-            detail="This key asks too often.",
-            remedy="Wait for the seconds in Retry-After; follow events instead of polling.",
-        ),
+    return problem_error(
+        slug="too-many-requests",
+        code="rate-limit",
+        detail="This key asks too often.",
+        remedy="Wait for the seconds in Retry-After; follow events instead of polling.",
         headers={"Retry-After": str(retry_after_s)},
     )
 
 
 def _not_ready() -> ProblemError:
-    return ProblemError(
-        problem(
-            "not-ready",
-            code="database-unavailable",
-            detail="The API keys cannot be looked up at the moment.",
-            remedy="Try again after the time in Retry-After.",
-        )
+    return problem_error(
+        slug="not-ready",
+        code="database-unavailable",
+        detail="The API keys cannot be looked up at the moment.",
+        remedy="Try again after the time in Retry-After.",
     )

@@ -14,10 +14,10 @@ from fastapi import Depends, Header, Path, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import problem, shortened
+from api_schemas.problems import shortened
 from service.api.context import ApiContext
 from service.api.headers import STAND_ALONE
-from service.api.problems import ProblemError, documented
+from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import JSON
 from service.jobs.inputs import IMAGE, RESULT
 from service.jobs.records import StoredBlob
@@ -189,12 +189,8 @@ def _unknown(name: str, there_are: Mapping[str, Rendition], state: JobState) -> 
     there_is = f"Ask for {_named(there_are)}." if there_are else "Nothing is there to be asked for."
     if state is not JobState.SUCCEEDED:
         there_is += f" The state is {state}; only what has succeeded has files of a result."
-    return ProblemError(
-        problem(
-            "not-found",
-            detail=f"There is no file '{shortened(name)}' here.",
-            remedy=there_is,
-        )
+    return problem_error(
+        slug="not-found", detail=f"There is no file '{shortened(name)}' here.", remedy=there_is
     )
 
 
@@ -243,13 +239,11 @@ def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
 
 def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
     """Say that nothing acceptable is available, and what is."""
-    return ProblemError(
-        problem(
-            "not-acceptable",
-            detail=f"{what} cannot be had as {shortened(accept or ANYTHING)}.",
-            remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
-            field="Accept",
-        ),
+    return problem_error(
+        slug="not-acceptable",
+        detail=f"{what} cannot be had as {shortened(accept or ANYTHING)}.",
+        remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
+        field="Accept",
         headers={"Vary": "Accept"},
     )
 

@@ -16,10 +16,9 @@ from typing import Final
 from fastapi import APIRouter, Request, Response
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
-from api_schemas.problems import problem
 from api_schemas.service import Health
 from service.api.context import Context, Parts
-from service.api.problems import ProblemError, documented
+from service.api.problems import ProblemError, documented, problem_error
 from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
 from service.jobs.engine import JobEngine
 from service.jobs.records import WorkerStatus
@@ -209,6 +208,6 @@ def _check_storage(blobs: BlobStore) -> None:
 
 def not_ready(*, code: str, detail: str) -> ProblemError:
     """Say what is missing."""
-    return ProblemError(
-        problem("not-ready", code=code, detail=detail, remedy="Try again in a moment.")
+    return problem_error(
+        slug="not-ready", code=code, detail=detail, remedy="Try again in a moment."
     )

@@ -9,7 +9,6 @@ from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.picture import ImageId, ImagePage, UploadedImage
-from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
 from service.api.files import (
     BINARY,
@@ -20,7 +19,7 @@ from service.api.files import (
     picture_rendition,
 )
 from service.api.listing import Cursor, Limit, page_of, read_cursor
-from service.api.problems import ProblemError, documented, not_found
+from service.api.problems import ProblemError, documented, not_found, problem_error
 from service.api.requests import Part, body, form_content, read_form
 from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
@@ -32,7 +31,7 @@ from service.jobs.images import (
 )
 from service.jobs.inputs import IMAGE
 from service.jobs.records import StoredBlob
-from service.submissions.refusal import RefusedError, refused
+from service.submissions.refusal import RefusedError, refused_field
 from service.submissions.submission import check_picture
 
 PATH: Final = "/v1/images"
@@ -201,13 +200,11 @@ def _read(context: ApiContext, record: ImageRecord) -> bytes:
 
 
 def _unknown(field: str) -> RefusedError:
-    return refused(
-        FieldProblem(
-            field=field,
-            code="unknown-image",
-            reason="There is no uploaded picture with this id; it may have expired.",
-            remedy="Upload the picture to /v1/images and send the id it answers.",
-        )
+    return refused_field(
+        field=field,
+        code="unknown-image",
+        reason="There is no uploaded picture with this id; it may have expired.",
+        remedy="Upload the picture to /v1/images and send the id it answers.",
     )
 
 
@@ -245,25 +242,21 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     if kept is None or not kept.is_new:
         erase_at_once(context.blobs, scope)
     if kept is None:
-        raise ProblemError(
-            problem(
-                "not-ready",
-                code="submission-lost",
-                detail="The upload took too long and was given up.",
-                remedy="Post the picture again.",
-            )
+        raise problem_error(
+            slug="not-ready",
+            code="submission-lost",
+            detail="The upload took too long and was given up.",
+            remedy="Post the picture again.",
         )
     return kept
 
 
 def _no_quota(error: ImageQuotaError) -> ProblemError:
-    return ProblemError(
-        problem(
-            "quota-exceeded",
-            detail=str(error),
-            remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or wait until they "
-            "expire; a fit can also bring its picture along.",
-        )
+    return problem_error(
+        slug="quota-exceeded",
+        detail=str(error),
+        remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or wait until they "
+        "expire; a fit can also bring its picture along.",
     )
 
 

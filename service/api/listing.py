@@ -7,8 +7,7 @@ from urllib.parse import quote
 
 from fastapi import Query, Response
 
-from api_schemas.problems import FieldProblem
-from service.submissions.refusal import refused
+from service.submissions.refusal import refused_field
 
 MAX_PAGE: Final = 200
 
@@ -45,13 +44,11 @@ def read_cursor(cursor: str | None) -> tuple[float, str] | None:
         return None
     found = re.match(CURSOR, cursor)
     if found is None:
-        raise refused(
-            FieldProblem(
-                field="cursor",
-                code="unknown-cursor",
-                reason="This is no cursor of this service.",
-                remedy="Follow 'next' of a page, or leave the cursor out.",
-            )
+        raise refused_field(
+            field="cursor",
+            code="unknown-cursor",
+            reason="This is no cursor of this service.",
+            remedy="Follow 'next' of a page, or leave the cursor out.",
         )
     return float(found[1]), found[2]
 

@@ -14,11 +14,10 @@ from fastapi.responses import FileResponse, RedirectResponse
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from api_schemas.problems import problem
 from api_schemas.service import ServiceIndex
 from service.api.context import Parts
 from service.api.headers import OWN_CAMERA, OWN_FILES, STATIC_SITE
-from service.api.problems import ProblemError
+from service.api.problems import problem_error
 
 ROUTER: Final = APIRouter(include_in_schema=False)
 
@@ -178,11 +177,9 @@ def mount_site(app: FastAPI, folder: Path) -> None:
 def _absent(request: Request) -> Response:
     if "text/html" in request.headers.get("Accept", ""):
         return RedirectResponse("/docs", status_code=307)
-    raise ProblemError(
-        problem(
-            "not-found",
-            detail="This service has no documentation site.",
-            remedy="`make docs` builds it from a clone, whose files in service/docs can be read as "
-            "they are; the image of a release has it. Start the service again afterwards.",
-        )
+    raise problem_error(
+        slug="not-found",
+        detail="This service has no documentation site.",
+        remedy="`make docs` builds it from a clone, whose files in service/docs can be read as "
+        "they are; the image of a release has it. Start the service again afterwards.",
     )

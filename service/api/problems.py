@@ -42,14 +42,27 @@ class ProblemError(Exception):
         self.headers = dict(headers or {})
 
 
+def problem_error(
+    *,
+    slug: str,
+    detail: str,
+    remedy: str,
+    code: str | None = None,
+    field: str | None = None,
+    headers: Mapping[str, str] | None = None,
+) -> ProblemError:
+    """Build a problem to raise; as :func:`api_schemas.problems.problem`."""
+    return ProblemError(
+        problem(slug, detail=detail, remedy=remedy, code=code, field=field), headers=headers
+    )
+
+
 def not_found(*, what: str) -> ProblemError:
     """Say that something does not exist."""
-    return ProblemError(
-        problem(
-            "not-found",
-            detail=f"There is no {what}.",
-            remedy="Check the address; erased jobs are not found any more.",
-        )
+    return problem_error(
+        slug="not-found",
+        detail=f"There is no {what}.",
+        remedy="Check the address; erased jobs are not found any more.",
     )
 
 

@@ -14,7 +14,7 @@ from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import FieldProblem, problem
+from api_schemas.problems import problem
 from api_schemas.products import AnyProductOptions, Product, ProductRequest, product_id
 from api_schemas.products.bodies import AnimationOptions
 from api_schemas.products.documents import (
@@ -55,7 +55,7 @@ from service.representation.products import (
     product_path,
     represent_product,
 )
-from service.submissions.refusal import RefusedError, refused
+from service.submissions.refusal import RefusedError, refused, refused_field
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 
@@ -186,24 +186,19 @@ def _checked(options: AnyProductOptions, parts: Mapping[str, Sequence[bytes]]) -
     taken = options.part
     for name in parts:
         if name != taken:
-            raise refused(
-                FieldProblem(
-                    field=name,
-                    code="unknown-field",
-                    reason=f"This request for a product of kind {options.kind} takes no part "
-                    f"'{name}'.",
-                    remedy="Send the request without it.",
-                )
+            raise refused_field(
+                field=name,
+                code="unknown-field",
+                reason=f"This request for a product of kind {options.kind} takes no part '{name}'.",
+                remedy="Send the request without it.",
             )
     if taken is None or taken not in parts:
         if options.part_is_for is not None:
-            raise refused(
-                FieldProblem(
-                    field=taken or "kind",
-                    code="missing",
-                    reason=f"The part '{taken}' is missing, which {options.part_is_for}.",
-                    remedy=f"Send {MULTIPART} with the parts 'request' and '{taken}'.",
-                )
+            raise refused_field(
+                field=taken or "kind",
+                code="missing",
+                reason=f"The part '{taken}' is missing, which {options.part_is_for}.",
+                remedy=f"Send {MULTIPART} with the parts 'request' and '{taken}'.",
             )
         return None
     (content,) = parts[taken]
@@ -226,10 +221,8 @@ def _check_motion(clip: bytes, options: AnyProductOptions) -> str:
         try:
             read_motion(clip, named=options.joints, start_s=options.start_s)
         except InvalidInputError as error:
-            raise refused(
-                FieldProblem(
-                    field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
-                )
+            raise refused_field(
+                field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
             ) from error
     return "text/plain"
 
@@ -248,8 +241,8 @@ def _check_chart(chart: bytes, options: AnyProductOptions) -> str:
     try:
         read = read_chart(chart)
     except ChartError as error:
-        raise refused(
-            FieldProblem(field=CHART, code=NOT_A_CHART, reason=str(error), remedy=error.remedy)
+        raise refused_field(
+            field=CHART, code=NOT_A_CHART, reason=str(error), remedy=error.remedy
         ) from error
     assert isinstance(options, SizeOptions)
     faults = ease_faults(options, read)

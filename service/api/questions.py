@@ -8,7 +8,6 @@ from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.points import PointsFormat
-from api_schemas.problems import FieldProblem, problem
 from api_schemas.questions import (
     BodyEstimate,
     BodyRequest,
@@ -21,7 +20,7 @@ from api_schemas.service import BodyModels
 from service.api.context import Context
 from service.api.files import BINARY, AcceptHeader, not_acceptable, preferred
 from service.api.images import image_content
-from service.api.problems import ProblemError, documented
+from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import (
     JSON,
     REQUEST,
@@ -38,7 +37,7 @@ from service.estimates.questions import ANSWER, FILE, BodyTask
 from service.jobs.inputs import IMAGE
 from service.representation.csv_tables import CSV, measurements_csv
 from service.representation.formats import GLB, MESH_FORMATS
-from service.submissions.refusal import refused
+from service.submissions.refusal import refused, refused_field
 from service.submissions.submission import (
     checked_points,
     detector_is_installed,
@@ -107,13 +106,11 @@ async def propose_points(request: Request, context: Context) -> Response:
     elif asked.image_id is not None:
         image = await run_in_threadpool(image_content, context, asked.image_id, field="image_id")
     else:
-        raise refused(
-            FieldProblem(
-                field="image_id",
-                code="missing",
-                reason="The picture is missing.",
-                remedy="Send the id of an uploaded picture, or a form with the part 'image'.",
-            )
+        raise refused_field(
+            field="image_id",
+            code="missing",
+            reason="The picture is missing.",
+            remedy="Send the id of an uploaded picture, or a form with the part 'image'.",
         )
     settings = context.settings
     placed = await run_in_threadpool(
@@ -207,11 +204,9 @@ def list_body_models(context: Context) -> BodyModels:
     """Return genders, mean heights, landmarks, accepted points, versions and provenance."""
     known = context.engine.body_models()
     if known is None:
-        raise ProblemError(
-            problem(
-                "not-ready",
-                detail="No worker has started yet, and only workers know the bodies.",
-                remedy="Start a worker, or try again in a moment.",
-            )
+        raise problem_error(
+            slug="not-ready",
+            detail="No worker has started yet, and only workers know the bodies.",
+            remedy="Start a worker, or try again in a moment.",
         )
     return known

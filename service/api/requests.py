@@ -14,8 +14,8 @@ from pydantic import BaseModel
 from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 
-from api_schemas.problems import FieldProblem, field_problem, problem, shortened
-from service.api.problems import ProblemError
+from api_schemas.problems import FieldProblem, field_problem, shortened
+from service.api.problems import ProblemError, problem_error
 from service.api.storage import disk_full
 from service.jobs.blobs_local import FULL
 from service.submissions.refusal import parsed
@@ -115,12 +115,10 @@ async def read_json(request: Request, kind: type[Model]) -> Received[Model]:
     async for chunk in request.stream():
         text += chunk
         if len(text) > MAX_JSON_BYTES:
-            raise ProblemError(
-                problem(
-                    "payload-too-large",
-                    detail=f"The JSON exceeds {MAX_JSON_BYTES} bytes.",
-                    remedy="Send what /openapi.json describes for this path.",
-                )
+            raise problem_error(
+                slug="payload-too-large",
+                detail=f"The JSON exceeds {MAX_JSON_BYTES} bytes.",
+                remedy="Send what /openapi.json describes for this path.",
             )
     asked = parsed(kind, text, whole="body", called="the body")
     return Received(text=text, asked=asked, files={})
@@ -179,12 +177,10 @@ def media_type(request: Request) -> str:
 
 def _unsupported(request: Request, *, remedy: str, accepted: str) -> ProblemError:
     """Say that a body of this media type is not accepted here."""
-    return ProblemError(
-        problem(
-            "unsupported-media-type",
-            detail=f"The body is {shortened(media_type(request)) or 'of no declared kind'}.",
-            remedy=remedy,
-        ),
+    return problem_error(
+        slug="unsupported-media-type",
+        detail=f"The body is {shortened(media_type(request)) or 'of no declared kind'}.",
+        remedy=remedy,
         headers={"Accept-Post": accepted},
     )
 
@@ -222,12 +218,10 @@ def _is_text(value: UploadFile | str) -> bool:
 
 
 def _malformed(reason: str, parts: Mapping[str, Part]) -> ProblemError:
-    return ProblemError(
-        problem(
-            "malformed-request",
-            detail=f"The multipart body cannot be read: {reason}",
-            remedy=f"Send these parts and no others: {', '.join(parts)}.",
-        )
+    return problem_error(
+        slug="malformed-request",
+        detail=f"The multipart body cannot be read: {reason}",
+        remedy=f"Send these parts and no others: {', '.join(parts)}.",
     )
 
 
@@ -309,15 +303,12 @@ def _check_parameters(request: Request) -> None:
 
 
 def _encoded(coding: str) -> ProblemError:
-    return ProblemError(
-        problem(
-            "unsupported-media-type",
-            code="encoded-body",
-            field="Content-Encoding",
-            detail=f"The body is said to be encoded ({shortened(coding)}); it is read as it comes.",
-            remedy="Send the body without Content-Encoding; pictures are compressed already.",
-        ),
-        # RFC 9110, 15.5.16: so a client knows that the kind of the body is not at fault.
+    return problem_error(
+        slug="unsupported-media-type",
+        code="encoded-body",
+        field="Content-Encoding",
+        detail=f"The body is said to be encoded ({shortened(coding)}); it is read as it comes.",
+        remedy="Send the body without Content-Encoding; pictures are compressed already.",
         headers={"Accept-Encoding": "identity"},
     )
 

@@ -4,8 +4,7 @@ import contextlib
 from collections.abc import Iterable, Iterator
 from typing import Final
 
-from api_schemas.problems import problem
-from service.api.problems import ProblemError, not_found
+from service.api.problems import ProblemError, not_found, problem_error
 from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
 from service.jobs.records import EngineFullError, StoredBlob
 
@@ -15,14 +14,11 @@ RETRY_WHEN_FULL_S: Final = 60
 
 def disk_full() -> ProblemError:
     """Say that nothing can be stored now."""
-    return ProblemError(
-        problem(
-            "insufficient-storage",
-            code="disk-full",
-            detail="Too little of the disk is free; nothing was kept.",
-            remedy="Erase what you need no more by DELETE, or try again after the time in "
-            "Retry-After.",
-        ),
+    return problem_error(
+        slug="insufficient-storage",
+        code="disk-full",
+        detail="Too little of the disk is free; nothing was kept.",
+        remedy="Erase what you need no more by DELETE, or try again after the time in Retry-After.",
         headers={"Retry-After": str(RETRY_WHEN_FULL_S)},
     )
 
@@ -68,12 +64,10 @@ def erase_blobs(blobs: BlobStore, scopes: Iterable[str]) -> None:
         for scope in scopes:
             blobs.erase(scope)
     except BlobsUnavailableError as error:
-        raise ProblemError(
-            problem(
-                "not-ready",
-                code="storage-unavailable",
-                detail="It is not found any more, but the storage is not available: its files are "
-                "erased once that is back.",
-                remedy="Nothing has to be sent again.",
-            )
+        raise problem_error(
+            slug="not-ready",
+            code="storage-unavailable",
+            detail="It is not found any more, but the storage is not available: its files are "
+            "erased once that is back.",
+            remedy="Nothing has to be sent again.",
         ) from error

@@ -11,12 +11,12 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.jobs import Fit, WebhookTarget
-from api_schemas.problems import FieldProblem, problem
+from api_schemas.problems import problem
 from api_schemas.questions import BodyRequest
 from service.api.context import ApiContext, Context
 from service.api.events import Prefer, wait_for_end
 from service.api.images import image_content
-from service.api.problems import ProblemError, documented, not_found
+from service.api.problems import ProblemError, documented, not_found, problem_error
 from service.api.requests import (
     JSON,
     MULTIPART,
@@ -43,7 +43,7 @@ from service.jobs.records import (
     SubmitOutcome,
 )
 from service.representation.jobs import FITS, POLL_AFTER_S, fit_path, represent
-from service.submissions.refusal import of_view, refused
+from service.submissions.refusal import of_view, refused, refused_field
 from service.submissions.submission import CheckedSubmission, check_detector, check_submission
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
@@ -147,24 +147,20 @@ def _sent_along(
 ) -> tuple[SentPicture[bytes], ...]:
     for number, view in enumerate(asked.views):
         if view.image_id is not None or view.mask_id is not None:
-            raise refused(
-                FieldProblem(
-                    field=f"views.{number}.{'mask_id' if view.image_id is None else 'image_id'}",
-                    code="one-picture-needed",
-                    reason="The pictures come with the request.",
-                    remedy="Leave it out, or send the request alone, as JSON.",
-                )
+            raise refused_field(
+                field=f"views.{number}.{'mask_id' if view.image_id is None else 'image_id'}",
+                code="one-picture-needed",
+                reason="The pictures come with the request.",
+                remedy="Leave it out, or send the request alone, as JSON.",
             )
     if not masks:
         return tuple(SentPicture(image, None) for image in images)
     if len(masks) != len(images):
-        raise refused(
-            FieldProblem(
-                field="mask",
-                code="views-count",
-                reason=f"{len(images)} pictures came, and {len(masks)} masks.",
-                remedy="Send no mask, or one for each picture, in their order.",
-            )
+        raise refused_field(
+            field="mask",
+            code="views-count",
+            reason=f"{len(images)} pictures came, and {len(masks)} masks.",
+            remedy="Send no mask, or one for each picture, in their order.",
         )
     return tuple(SentPicture(image, mask) for image, mask in zip(images, masks, strict=True))
 
@@ -174,14 +170,12 @@ def _uploaded(context: ApiContext, asked: FitRequest) -> tuple[SentPicture[bytes
     for number, view in enumerate(asked.views):
         with of_view(number):
             if view.image_id is None:
-                raise refused(
-                    FieldProblem(
-                        field="image_id",
-                        code="missing",
-                        reason="The picture is missing.",
-                        remedy=f"Send the id of an uploaded picture, or {MULTIPART} with the "
-                        "parts 'request' and 'image'.",
-                    )
+                raise refused_field(
+                    field="image_id",
+                    code="missing",
+                    reason="The picture is missing.",
+                    remedy=f"Send the id of an uploaded picture, or {MULTIPART} with the "
+                    "parts 'request' and 'image'.",
                 )
             image = image_content(context, view.image_id, field="image_id")
             mask = None
@@ -339,12 +333,10 @@ def accepted_job(submission: Submission) -> JobRecord:
     if submission.outcome is SubmitOutcome.FIT_GONE:
         raise not_found(what="such fit any more")
     if submission.job is None:
-        raise ProblemError(
-            problem(
-                "idempotency-key-reused",
-                detail="This Idempotency-Key came earlier with another request.",
-                remedy="Use a new key for every new request.",
-                field="Idempotency-Key",
-            )
+        raise problem_error(
+            slug="idempotency-key-reused",
+            detail="This Idempotency-Key came earlier with another request.",
+            remedy="Use a new key for every new request.",
+            field="Idempotency-Key",
         )
     return submission.job

@@ -51,6 +51,13 @@ def refused(*errors: FieldProblem, slug: str = "invalid-request", further: int =
     return RefusedError(reason, further=further + len(errors) - len(reason.errors))
 
 
+def refused_field(
+    *, field: str, code: str, reason: str, remedy: str, slug: str = "invalid-request"
+) -> RefusedError:
+    """Refuse for one field."""
+    return refused(FieldProblem(field=field, code=code, reason=reason, remedy=remedy), slug=slug)
+
+
 _UNIT: Final = re.compile(r"_(m|kg|px|35mm)$")
 _LIKENESS: Final = 0.75
 """How similar a name must be to be taken for a misspelling: `hieght` is no `light` (0.73)."""

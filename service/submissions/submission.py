@@ -28,7 +28,7 @@ from service.submissions.image_header import (
     UnknownImageError,
     read_image_header,
 )
-from service.submissions.refusal import of_view, refused
+from service.submissions.refusal import of_view, refused, refused_field
 
 MOST_SCANS: Final = 100
 """Each scan of a JPEG costs a decoder as much time as all its pixels do, however few bytes it has:
@@ -79,13 +79,11 @@ def check_submission(
         With the problem to answer; fields of a picture begin with ``views.NUMBER``.
     """
     if len(asked.views) != len(sent):
-        raise refused(
-            FieldProblem(
-                field="views",
-                code="views-count",
-                reason=f"{len(sent)} pictures came, and {len(asked.views)} of `views`.",
-                remedy="Send as many `views` as pictures, in their order, each with its `view`.",
-            )
+        raise refused_field(
+            field="views",
+            code="views-count",
+            reason=f"{len(sent)} pictures came, and {len(asked.views)} of `views`.",
+            remedy="Send as many `views` as pictures, in their order, each with its `view`.",
         )
     points, files = [], []
     for number, (view, each) in enumerate(zip(asked.views, sent, strict=True)):
@@ -122,54 +120,44 @@ def check_picture(
         decoded whole.
     """
     if not content:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="empty-upload",
-                reason="The upload has no content.",
-                remedy=f"Send the bytes of a {ACCEPTED_KINDS} file.",
-            )
+        raise refused_field(
+            field=field,
+            code="empty-upload",
+            reason="The upload has no content.",
+            remedy=f"Send the bytes of a {ACCEPTED_KINDS} file.",
         )
     try:
         header = read(content)
     except UnknownImageError as error:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="not-an-image",
-                reason=f"The upload is not a {ACCEPTED_KINDS} file.",
-                remedy=f"Send a {ACCEPTED_KINDS} file.",
-            ),
+        raise refused_field(
+            field=field,
+            code="not-an-image",
+            reason=f"The upload is not a {ACCEPTED_KINDS} file.",
+            remedy=f"Send a {ACCEPTED_KINDS} file.",
             slug="unsupported-media-type",
         ) from error
     except UndecodedHeicError as error:
         # Of this machine alone: a fit fails with this code where its worker has no decoder.
-        raise refused(
-            FieldProblem(
-                field=field,
-                code=picture_files.NOT_INSTALLED_CODE,
-                reason=picture_files.NOT_INSTALLED,
-                remedy=picture_files.REMEDY,
-            ),
+        raise refused_field(
+            field=field,
+            code=picture_files.NOT_INSTALLED_CODE,
+            reason=picture_files.NOT_INSTALLED,
+            remedy=picture_files.REMEDY,
             slug="unsupported-media-type",
         ) from error
     except DamagedImageError as error:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="image-damaged",
-                reason=f"The file is damaged: {error}.",
-                remedy="Send the whole file, or save the picture anew.",
-            )
+        raise refused_field(
+            field=field,
+            code="image-damaged",
+            reason=f"The file is damaged: {error}.",
+            remedy="Send the whole file, or save the picture anew.",
         ) from error
     if header.animated:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="image-animated",
-                reason="The file holds an animation.",
-                remedy="Send a single picture.",
-            )
+        raise refused_field(
+            field=field,
+            code="image-animated",
+            reason="The file holds an animation.",
+            remedy="Send a single picture.",
         )
     if header.scans > MOST_SCANS:
         raise refused(
@@ -201,16 +189,12 @@ def too_many_pixels(field: str, width: int, height: int, most: int) -> FieldProb
 
 def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
     if (image.width, image.height) != (mask.width, mask.height):
-        raise refused(
-            FieldProblem(
-                field="mask",
-                code="mask-size-mismatch",
-                reason=(
-                    f"The mask has {mask.width} x {mask.height} pixels, the picture "
-                    f"{image.width} x {image.height}."
-                ),
-                remedy="Send a mask of the picture's size as a browser shows it.",
-            )
+        raise refused_field(
+            field="mask",
+            code="mask-size-mismatch",
+            reason=f"The mask has {mask.width} x {mask.height} pixels, the picture "
+            f"{image.width} x {image.height}.",
+            remedy="Send a mask of the picture's size as a browser shows it.",
         )
 
 
@@ -260,13 +244,11 @@ def placed_points(
         named = named_points(points, layout, width=width, height=height)
     except PydanticCustomError as error:
         context = error.context or {}
-        raise refused(
-            FieldProblem(
-                field=str(context.get("field", "points")),
-                code=error.type,
-                reason=str(context.get("reason", error.message())),
-                remedy=str(context.get("remedy", "")),
-            )
+        raise refused_field(
+            field=str(context.get("field", "points")),
+            code=error.type,
+            reason=str(context.get("reason", error.message())),
+            remedy=str(context.get("remedy", "")),
         ) from error
     outside = [
         _problem(fault) for fault in place_faults(_places(named), width=width, height=height)
@@ -310,11 +292,9 @@ def check_detector(asked: FitRequest, folder: Path | None) -> None:
     for number, view in enumerate(asked.views):
         if view.are_points_completed and not detector_is_installed(folder):
             with of_view(number):
-                raise refused(
-                    FieldProblem(
-                        field="points" if view.points == AUTO else "complete_points",
-                        code=DETECTOR_MISSING,
-                        reason=NOT_INSTALLED,
-                        remedy=REMEDY,
-                    )
+                raise refused_field(
+                    field="points" if view.points == AUTO else "complete_points",
+                    code=DETECTOR_MISSING,
+                    reason=NOT_INSTALLED,
+                    remedy=REMEDY,
                 )
