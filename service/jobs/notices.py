@@ -14,6 +14,7 @@ import logging
 import os
 import ssl
 import time
+from collections import defaultdict
 from collections.abc import Awaitable, Callable, Collection, Mapping
 from datetime import UTC, datetime, timedelta
 from typing import Final
@@ -47,6 +48,10 @@ LONGER_BY: Final = 4.0
 ATTEMPTS: Final = 8
 """With pauses of 1, 4, 16 ... seconds, none longer than an hour: the last attempt is 83 minutes
 after the first."""
+
+AT_ONCE: Final = 8
+"""So many notices of one owner are on their way from a process at the same time: others' do not
+wait for a receiver that does not answer, nor run out of connections because of it."""
 
 LEFT_AFTER: Final = timedelta(hours=3)
 """By then a notice has been accepted or given up, unless whoever sent it is gone."""
@@ -101,6 +106,7 @@ class NoticeRunner:
     def __init__(self, database: sa.Engine, send: Callable[[JobRecord], Awaitable[None]]) -> None:
         self._database = database
         self._send = send
+        self._turns = defaultdict[str, asyncio.Semaphore](lambda: asyncio.Semaphore(AT_ONCE))
 
     def start(self) -> None:
         """Begin to send what is enqueued, and what this machine's last process left."""
@@ -127,7 +133,8 @@ class NoticeRunner:
         async def send(job_id: str) -> None:
             job = await asyncio.to_thread(self._find, job_id)
             if job is not None:
-                await self._send(job)
+                async with self._turns[job.tenant]:
+                    await self._send(job)
 
         @DBOS.workflow(name=WORKFLOW)
         async def notice(job_id: str) -> None:

@@ -1,15 +1,25 @@
 """Notices of jobs' ends: signed, sent until they are accepted, to public addresses only."""
 
+import asyncio
 import dataclasses
 import json
 import signal
+import threading
+from collections import Counter
+from pathlib import Path
 
 import pytest
 
 from api_schemas.jobs import Fit, WebhookEvent
+from service.jobs.database import open_database, prepare_database
+from service.jobs.executions import client_of
+from service.jobs.notices import AT_ONCE, NoticeRunner, Notices
+from service.jobs.records import JobRecord
+from service.jobs.rows import find_job
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     OWN_SECRET,
+    PATIENCE_S,
     REQUEST,
     SHARED,
     Machine,
@@ -19,6 +29,7 @@ from tests.integration.service.harness import (
     said_of_view,
 )
 from tests.integration.service.receiver import SECRET, Notice, Receiver
+from tests.stored_jobs import insert_job
 
 
 def submitted(service: Service, script: dict[str, object] | None = None, **webhook: str) -> str:
@@ -105,6 +116,42 @@ def test_a_notice_outlives_kill_9_of_the_api(machine: Machine, receiver: Receive
     with running_service(shared):
         first, second = told(receiver, 2)
     assert first.body == second.body
+
+
+def test_a_receiver_that_does_not_answer_delays_nobody_elses_notice(tmp_path: Path):
+    url = f"sqlite:///{tmp_path / 'maquette.sqlite'}"
+    prepare_database(url)
+    database = open_database(url)
+    notices = Notices(client_of(database))
+    under_way = Counter[str]()
+    is_told = threading.Event()
+
+    async def send(job: JobRecord) -> None:
+        under_way[job.tenant] += 1
+        if job.tenant == "other":
+            is_told.set()
+        else:
+            await asyncio.Event().wait()
+
+    def end(name: str, tenant: str) -> None:
+        with database.begin() as connection:
+            insert_job(connection, name, tenant=tenant, webhook_target="0" * 64)
+            job = find_job(connection, name)
+            assert job is not None
+            notices.enqueue(connection, job)
+
+    runner = NoticeRunner(database, send)
+    runner.start()
+    try:
+        for number in range(3 * AT_ONCE):
+            end(f"dead-{number}", "dead")
+        eventually(lambda: under_way["dead"] == AT_ONCE, what="notices of one owner")
+        end("other", "other")
+        assert is_told.wait(PATIENCE_S)
+        assert under_way["dead"] == AT_ONCE
+    finally:
+        runner.stop()
+        database.dispose()
 
 
 @pytest.mark.parametrize(
