@@ -42,7 +42,7 @@ from service.api.observation import HeadAsGet, Observation, ServiceMetrics
 from service.api.problems import install_problem_handlers
 from service.api.requests import check_form
 from service.compute.lanes import Ask
-from service.jobs.blobs import BlobStore
+from service.jobs.blobs import BlobStore, WatchedBlobs
 from service.jobs.engine import JobEngine
 from service.jobs.keys import KeyRing
 from service.process.data_folder import Disk
@@ -126,10 +126,11 @@ def create_app(
 
     app = _resources(lifespan)
     metrics = ServiceMetrics(engine, disk)
+    watched = WatchedBlobs(blobs)
     app.state.parts = Parts(
         settings=settings,
         engine=engine,
-        blobs=blobs,
+        blobs=watched,
         disk=disk,
         estimators=Estimators(ask, metrics, estimators=settings.estimator_processes),
         feed=feed,
@@ -137,7 +138,7 @@ def create_app(
         draining=draining,
         read_header=read_header,
     )
-    app.state.readiness = Readiness(health.checks(engine, blobs, disk))
+    app.state.readiness = Readiness(health.checks(engine, watched, disk))
     _surround(app, settings=settings, keys=keys, metrics=metrics)
     return app
 

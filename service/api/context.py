@@ -10,7 +10,7 @@ from service.api.auth import Caller
 from service.api.estimators import Estimators
 from service.api.events import EventFeed
 from service.api.observation import ServiceMetrics
-from service.jobs.blobs import BlobStore
+from service.jobs.blobs import WatchedBlobs
 from service.jobs.engine import JobEngine, TenantJobs
 from service.jobs.images import TenantImages
 from service.process.data_folder import Disk
@@ -24,7 +24,7 @@ class Parts:
 
     settings: Settings
     engine: JobEngine
-    blobs: BlobStore
+    blobs: WatchedBlobs
     disk: Disk
     estimators: Estimators
     feed: EventFeed

@@ -5,13 +5,12 @@ measurements as a table; they are never stored, and have the same bytes each tim
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Annotated, Any, Final
 
 from fastapi import Depends, Header, Path, Response
-from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import shortened
@@ -249,7 +248,10 @@ def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> 
 
 
 async def answer_file(
-    context: ApiContext, rendition: Rendition, read: Callable[[StoredBlob], bytes], wanted: Wanted
+    context: ApiContext,
+    rendition: Rendition,
+    read: Callable[[StoredBlob], Awaitable[bytes]],
+    wanted: Wanted,
 ) -> Response:
     """Answer with a file; ``read`` reads what is stored."""
     headers = {"ETag": f'"{rendition.tag}"'}
@@ -259,7 +261,7 @@ async def answer_file(
         headers["Content-Security-Policy"] = STAND_ALONE
     if is_known(rendition.tag, wanted.if_none_match):
         return Response(status_code=304, headers=headers)
-    stored = await run_in_threadpool(read, rendition.source)
+    stored = await read(rendition.source)
     content = await _converted(context, stored, rendition)
     return Response(content, media_type=rendition.media_type, headers=headers)
 

@@ -29,7 +29,7 @@ from service.api.files import (
 from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found
 from service.api.requests import JSON, json_content
-from service.api.storage import erase_blobs, stored_content
+from service.api.storage import erase_blobs, stored_content, writing
 from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
 from service.jobs.records import ACTIVE, TERMINAL, JobRecord
@@ -136,9 +136,9 @@ def follow_fit(record: Found, context: Context, last_event_id: LastEventId = Non
     }
     | documented(*FIT_PROBLEMS),
 )
-def cancel_fit(fit_id: UUID, context: Context, response: Response) -> Fit:
+async def cancel_fit(fit_id: UUID, context: Context, response: Response) -> Fit:
     """Stop a fit; canceling again, or canceling what has ended, changes nothing."""
-    record = context.jobs.cancel(str(fit_id))
+    record = await writing(context.jobs.cancel, str(fit_id))
     if record is None:
         raise not_found(what="such fit")
     if record.state in TERMINAL:
@@ -149,11 +149,11 @@ def cancel_fit(fit_id: UUID, context: Context, response: Response) -> Fit:
 @ROUTER.delete(
     "/{fit_id}", status_code=204, summary="Erase a fit", responses=documented(*FIT_PROBLEMS)
 )
-def erase_fit(fit_id: UUID, context: Context) -> Response:
+async def erase_fit(fit_id: UUID, context: Context) -> Response:
     """Stop the fit if it runs, and erase it with its pictures, results and products."""
-    if not context.jobs.erase(str(fit_id)):
+    if not await writing(context.jobs.erase, str(fit_id)):
         raise not_found(what="such fit")
-    erase_blobs(context.blobs, [str(fit_id)])
+    await erase_blobs(context.blobs, [str(fit_id)])
     return Response(status_code=204)
 
 
@@ -170,9 +170,11 @@ def erase_fit(fit_id: UUID, context: Context) -> Response:
     | NOT_MODIFIED
     | documented(*FIT_PROBLEMS),
 )
-def get_fit_request(record: Found, context: Context, if_none_match: IfNoneMatch = None) -> Response:
+async def get_fit_request(
+    record: Found, context: Context, if_none_match: IfNoneMatch = None
+) -> Response:
     """Return what was asked for, with names for all points: to be changed and sent again."""
-    content = stored_content(context.blobs, record.id, record.options)
+    content = await stored_content(context.blobs, record.id, record.options)
     return answer_document(content, record.options.digest, if_none_match)
 
 
@@ -181,7 +183,7 @@ def get_fit_request(record: Found, context: Context, if_none_match: IfNoneMatch 
     summary="The result document of a fit",
     responses={200: {"model": FitResult}} | NOT_MODIFIED | documented("no-result", *FIT_PROBLEMS),
 )
-def get_fit_result(
+async def get_fit_result(
     record: Found,
     context: Context,
     if_none_match: IfNoneMatch = None,
@@ -190,7 +192,7 @@ def get_fit_result(
     document = record.files.get(RESULT)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    content = stored_content(context.blobs, record.id, document)
+    content = await stored_content(context.blobs, record.id, document)
     return answer_document(content, document.digest, if_none_match)
 
 

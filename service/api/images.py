@@ -21,7 +21,7 @@ from service.api.files import (
 from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found, problem_error
 from service.api.requests import Part, body, form_content, read_form
-from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
+from service.api.storage import disk_full, erase_at_once, erase_blobs, storing, with_blobs, writing
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
 from service.jobs.images import (
     ImageQuotaError,
@@ -79,7 +79,7 @@ async def upload_image(request: Request, response: Response, context: Context) -
     """
     (content,) = (await read_form(request, _PARTS))[IMAGE]
     with storing():
-        kept = await run_in_threadpool(_keep, context, content)
+        kept = await with_blobs(context.blobs, _keep, context, content)
     response.status_code = 201 if kept.is_new else 200
     response.headers["Location"] = f"{PATH}/{kept.record.id}"
     return _represent(kept.record)
@@ -160,12 +160,12 @@ async def get_picture(
     summary="Erase an uploaded picture",
     responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
 )
-def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
+async def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
     """Erase a picture; fits that were made of it are not affected."""
-    scopes = context.images.erase(image_id)
+    scopes = await writing(context.images.erase, image_id)
     if not scopes:
         raise not_found(what="such picture")
-    erase_blobs(context.blobs, scopes)
+    await erase_blobs(context.blobs, scopes)
     return Response(status_code=204)
 
 
@@ -192,9 +192,9 @@ def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
         raise _unknown(field) from error
 
 
-def _read(context: ApiContext, record: ImageRecord) -> bytes:
+async def _read(context: ApiContext, record: ImageRecord) -> bytes:
     try:
-        return context.blobs.get(record.scope, record.id)
+        return await with_blobs(context.blobs, context.blobs.get, record.scope, record.id)
     except BlobMissingError as error:
         raise not_found(what="such picture any more") from error
 

@@ -44,7 +44,7 @@ from service.api.requests import (
     json_part,
     read_json_or_form,
 )
-from service.api.storage import disk_full, erase_at_once, store, stored_content, storing
+from service.api.storage import disk_full, erase_at_once, store, stored_content, storing, with_blobs
 from service.api.submissions import accepted_job
 from service.jobs.inputs import CHART, CLIP, RESULT, product_inputs
 from service.jobs.records import ACTIVE, JobRecord, NewJob, Submission, SubmitOutcome
@@ -124,7 +124,7 @@ async def make_product(
         raise ProblemError(no_result(fit))
     asked = product_id(options, None if sent is None else sent.content)
     with storing():
-        submission = await run_in_threadpool(_submit, context, fit, asked, options, sent)
+        submission = await with_blobs(context.blobs, _submit, context, fit, asked, options, sent)
     product = accepted_job(submission)
     look = partial(context.jobs.product, fit.id, asked)
     product = await wait_for_end(
@@ -135,7 +135,7 @@ async def make_product(
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     else:
         response.status_code = 200
-    return await run_in_threadpool(_represented, context, product)
+    return await _represented(context, product)
 
 
 @ROUTER.get(
@@ -144,12 +144,14 @@ async def make_product(
     summary="Look at a product",
     responses=documented(*FIT_PROBLEMS),
 )
-def get_product(fit: Found, product_id: ProductId, response: Response, context: Context) -> Product:
+async def get_product(
+    fit: Found, product_id: ProductId, response: Response, context: Context
+) -> Product:
     """Return where it stands, what there is to say of it, and its files."""
-    product = _find(context, fit, product_id)
+    product = await run_in_threadpool(_find, context, fit, product_id)
     if product.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
-    return _represented(context, product)
+    return await _represented(context, product)
 
 
 @ROUTER.get(
@@ -297,7 +299,9 @@ def _find(context: ApiContext, fit: JobRecord, asked: str) -> JobRecord:
     return product
 
 
-def _represented(context: ApiContext, product: JobRecord) -> Product:
+async def _represented(context: ApiContext, product: JobRecord) -> Product:
     document = product.made.get(RESULT)
-    result = None if document is None else stored_content(context.blobs, product.scope, document)
+    result = None
+    if document is not None:
+        result = await stored_content(context.blobs, product.scope, document)
     return represent_product(product, result)

@@ -32,6 +32,7 @@ from service.api.requests import (
     read_json,
     read_json_or_form,
 )
+from service.api.storage import with_blobs
 from service.estimates import questions
 from service.estimates.questions import ANSWER, FILE, BodyTask
 from service.jobs.inputs import IMAGE
@@ -104,7 +105,9 @@ async def propose_points(request: Request, context: Context) -> Response:
     if received.files:
         (image,) = received.files[IMAGE]
     elif asked.image_id is not None:
-        image = await run_in_threadpool(image_content, context, asked.image_id, field="image_id")
+        image = await with_blobs(
+            context.blobs, image_content, context, asked.image_id, field="image_id"
+        )
     else:
         raise refused_field(
             field="image_id",

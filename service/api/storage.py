@@ -1,15 +1,68 @@
 """The storage of blobs, its troubles as problems."""
 
 import contextlib
-from collections.abc import Iterable, Iterator
-from typing import Final
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from typing import Final, ParamSpec, TypeVar
+
+from anyio import CapacityLimiter, fail_after, to_thread
 
 from service.api.problems import ProblemError, not_found, problem_error
-from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
-from service.jobs.records import EngineFullError, StoredBlob
+from service.jobs.blobs import (
+    BlobMissingError,
+    BlobStore,
+    BlobsUnavailableError,
+    StorageFullError,
+    WatchedBlobs,
+)
+from service.jobs.records import EngineFullError, EngineUnavailableError, StoredBlob
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+_BLOBS: Final = CapacityLimiter(10)
+_WRITES: Final = CapacityLimiter(6)
+_THREADS: Final = CapacityLimiter(16)
+"""Fewer than the connections to the database: reads find one while all these wait."""
+
+TURN_WITHIN_S: Final = 5.0
+"""Who has not been let so long is told to come again."""
 
 RETRY_WHEN_FULL_S: Final = 60
 """Somebody has to make room first."""
+
+
+async def with_blobs(
+    blobs: WatchedBlobs, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs
+) -> T:
+    """Call what reads or writes blobs, in threads of its own.
+
+    A storage that does not answer keeps nothing else waiting, and is not asked while it is away.
+    """
+    blobs.check_answering()
+    busy = BlobsUnavailableError("others wait for it")
+    return await _in_turn(_BLOBS, busy, partial(function, *args, **kwargs))
+
+
+async def writing(function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+    """Call what writes to the database alone, in threads of its own.
+
+    A database that takes no writes still answers questions.
+    """
+    return await _in_turn(_WRITES, EngineUnavailableError(), partial(function, *args, **kwargs))
+
+
+async def _in_turn(limiter: CapacityLimiter, busy: Exception, function: Callable[[], T]) -> T:
+    borrower = object()
+    try:
+        with fail_after(TURN_WITHIN_S):
+            await limiter.acquire_on_behalf_of(borrower)
+    except TimeoutError:
+        raise busy from None
+    try:
+        return await to_thread.run_sync(function, limiter=_THREADS)
+    finally:
+        limiter.release_on_behalf_of(borrower)
 
 
 def disk_full() -> ProblemError:
@@ -37,10 +90,10 @@ def store(blobs: BlobStore, scope: str, content: bytes, media_type: str) -> Stor
     return StoredBlob(digest=blobs.put(scope, content), media_type=media_type)
 
 
-def stored_content(blobs: BlobStore, scope: str, blob: StoredBlob) -> bytes:
+async def stored_content(blobs: WatchedBlobs, scope: str, blob: StoredBlob) -> bytes:
     """Read a file of a fit; 404 if it has been erased in the meantime."""
     try:
-        return blobs.get(scope, blob.digest)
+        return await with_blobs(blobs, blobs.get, scope, blob.digest)
     except BlobMissingError as error:
         raise not_found(what="such fit any more") from error
 
@@ -52,7 +105,7 @@ def erase_at_once(blobs: BlobStore, scope: str) -> None:
         blobs.erase(scope)
 
 
-def erase_blobs(blobs: BlobStore, scopes: Iterable[str]) -> None:
+async def erase_blobs(blobs: WatchedBlobs, scopes: Iterable[str]) -> None:
     """Erase scopes whose records are gone.
 
     Raises
@@ -62,7 +115,7 @@ def erase_blobs(blobs: BlobStore, scopes: Iterable[str]) -> None:
     """
     try:
         for scope in scopes:
-            blobs.erase(scope)
+            await with_blobs(blobs, blobs.erase, scope)
     except BlobsUnavailableError as error:
         raise problem_error(
             slug="not-ready",

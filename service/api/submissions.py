@@ -22,14 +22,13 @@ from service.api.requests import (
     MULTIPART,
     REQUEST,
     Part,
-    Received,
     body,
     form_content,
     json_content,
     json_part,
     read_json_or_form,
 )
-from service.api.storage import disk_full, erase_at_once, store, storing
+from service.api.storage import disk_full, erase_at_once, store, storing, with_blobs, writing
 from service.estimates.questions import BodyTask
 from service.jobs.addresses import target_fault
 from service.jobs.inputs import IMAGE, MASK, SentPicture
@@ -116,7 +115,10 @@ async def submit_fit(
     """
     received = await read_json_or_form(request, FitRequest, _PARTS)
     asked = received.asked
-    sent = await run_in_threadpool(_pictures, context, received)
+    if received.files:
+        sent = _sent_along(asked, received.files[IMAGE], received.files.get(MASK, ()))
+    else:
+        sent = await with_blobs(context.blobs, _uploaded, context, asked)
     checked = await run_in_threadpool(_checked, context, asked, sent)
     contents = (content for each in sent for content in (each.image, each.mask or b""))
     key = _idempotency(idempotency_key, received.text, *contents)
@@ -131,15 +133,6 @@ async def submit_fit(
     elif "Preference-Applied" in response.headers:
         response.status_code = 200
     return represent(fit)
-
-
-def _pictures(
-    context: ApiContext, received: Received[FitRequest]
-) -> tuple[SentPicture[bytes], ...]:
-    """The pictures that came along, or those that the request names."""
-    if not received.files:
-        return _uploaded(context, received.asked)
-    return _sent_along(received.asked, received.files[IMAGE], received.files.get(MASK, ()))
 
 
 def _sent_along(
@@ -217,10 +210,12 @@ async def _accept(
     fit_id = str(uuid4())
     with storing():
         # From here on the fit's scope is erased automatically unless the fit is accepted.
-        submission = await run_in_threadpool(_reserve, context, fit_id, checked, key)
+        submission = await writing(_reserve, context, fit_id, checked, key)
         if submission.outcome is SubmitOutcome.ACCEPTED:
             await _refuse_nobody(context, checked.request)
-            submission = await run_in_threadpool(_store, context, fit_id, checked, webhook, key)
+            submission = await with_blobs(
+                context.blobs, _store, context, fit_id, checked, webhook, key
+            )
     return accepted_job(submission)
 
 

@@ -6,11 +6,22 @@ blobs: what a caller sent (picture, mask, points, whom to notify and with what s
 made from it is here and nowhere else.
 """
 
-from collections.abc import Iterable, Iterator
-from typing import Protocol
+import math
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from typing import Final, Protocol, TypeVar
 from urllib.parse import urlsplit
 
 from service.settings import PREFIX, SettingError, Settings
+
+T = TypeVar("T")
+
+SILENT_AFTER_S: Final = 5.0
+"""A store that has answered nothing for so long, though asked, is away."""
+
+AWAY_S: Final = 10.0
+"""Whoever asks first after that looks again for all."""
 
 
 class BlobMissingError(Exception):
@@ -80,6 +91,86 @@ class BlobStore(Protocol):
     def check_writable(self) -> None:
         """Store and remove a blob of a few bytes, or raise."""
         ...
+
+
+class WatchedBlobs:
+    """A store that is not asked while it is away: whoever would wait is told at once.
+
+    It is away while a call waits and nothing was answered for ``SILENT_AFTER_S``, and for
+    ``AWAY_S`` after such a call was given up, unless a look finds it back: a ``check_writable`` is
+    always made.
+    """
+
+    def __init__(
+        self, blobs: BlobStore, *, monotonic: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._blobs = blobs
+        self._monotonic = monotonic
+        self._lock = threading.Lock()
+        self._asked_at: dict[object, float] = {}
+        self._answered_at = -math.inf
+        self._found_away_at = -math.inf
+
+    def check_answering(self) -> None:
+        """Raise :class:`BlobsUnavailableError` while the store is away."""
+        with self._lock:
+            now = self._monotonic()
+            longest = min(self._asked_at.values(), default=now)
+            is_silent = now - max(longest, self._answered_at) > SILENT_AFTER_S
+            if is_silent or now - self._found_away_at < AWAY_S:
+                message = "it did not answer when it was last asked"
+                raise BlobsUnavailableError(message)
+
+    def prepare(self) -> None:
+        """Create the folder or bucket for the blobs unless it exists."""
+        self._ask(self._blobs.prepare)
+
+    def put(self, scope: str, content: bytes) -> str:
+        """Store ``content`` and return its SHA-256, its name in the scope."""
+        return self._ask(lambda: self._blobs.put(scope, content))
+
+    def put_all(self, scope: str, contents: Iterable[bytes]) -> list[str]:
+        """Store several at once, and return their names."""
+        return self._ask(lambda: self._blobs.put_all(scope, contents))
+
+    def get(self, scope: str, name: str) -> bytes:
+        """Return a blob, or raise :class:`BlobMissingError`."""
+        return self._ask(lambda: self._blobs.get(scope, name))
+
+    def scopes(self) -> Iterator[str]:
+        """Return the scopes that hold anything, in no order."""
+        return self._ask(self._blobs.scopes)
+
+    def erase(self, scope: str) -> None:
+        """Remove everything in a scope; erasing nothing is fine."""
+        self._ask(lambda: self._blobs.erase(scope))
+
+    def check_writable(self) -> None:
+        """Look: store and remove a blob of a few bytes, or raise."""
+        self._watch(self._blobs.check_writable)
+
+    def _ask(self, operation: Callable[[], T]) -> T:
+        self.check_answering()
+        return self._watch(operation)
+
+    def _watch(self, operation: Callable[[], T]) -> T:
+        call = object()
+        began = self._monotonic()
+        with self._lock:
+            self._asked_at[call] = began
+        try:
+            found = operation()
+        except BlobsUnavailableError:
+            # Who is refused at once need not be spared.
+            if self._monotonic() - began > SILENT_AFTER_S:
+                self._found_away_at = self._monotonic()
+            raise
+        finally:
+            with self._lock:
+                del self._asked_at[call]
+        self._answered_at = self._monotonic()
+        self._found_away_at = -math.inf
+        return found
 
 
 def setting_of_storage(settings: Settings) -> str:

@@ -55,8 +55,8 @@ LISTED_AT_ONCE: Final = 1000
 
 CONNECTIONS: Final = 32
 CONNECT_TIMEOUT_S: Final = 3
-READ_TIMEOUT_S: Final = 20
-ATTEMPTS: Final = 3
+READ_TIMEOUT_S: Final = 10
+ATTEMPTS: Final = 2
 
 
 class S3BlobStore:

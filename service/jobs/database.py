@@ -38,6 +38,10 @@ SCHEMA_FACT: Final = "schema_version"
 BODY_MODELS_FACT: Final = "body_models"
 """What the worker that last started can fit, as JSON."""
 
+WAIT_S: Final = 10
+"""How long a statement may take, locks included, and how long to wait for a free connection: who
+asks is told then, and who works tries again."""
+
 POSTGRES_CONNECTION: Final = {
     "connect_timeout": 5,
     # A database host that vanishes silently is noticed within seconds, not hours.
@@ -68,22 +72,24 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
             parsed,
             pool_size=connections,
             max_overflow=0,
-            pool_timeout=30,
+            pool_timeout=WAIT_S,
             hide_parameters=True,
         )
         event.listen(engine, "connect", configure_connection)
         return engine
-    return sa.create_engine(
+    engine = sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
         pool_size=connections,
         max_overflow=0,
-        pool_timeout=30,
+        pool_timeout=WAIT_S,
         pool_pre_ping=True,
         hide_parameters=True,
         connect_args={
             name: value for name, value in POSTGRES_CONNECTION.items() if name not in parsed.query
         },
     )
+    event.listen(engine, "connect", limit_statements)
+    return engine
 
 
 @retry_while_database_is_away
@@ -180,9 +186,6 @@ def _check_schema(engine: sa.Engine) -> None:
         raise DatabaseUnusableError(message)
 
 
-BUSY_TIMEOUT_MS: Final = 30_000
-
-
 def check_sqlite_version() -> None:
     """Raise DatabaseUnusableError if this Python's SQLite lacks what DBOS needs."""
     # From Python 3.12 on DBOS reads the clock with unixepoch('subsec'), NULL in an older SQLite.
@@ -206,12 +209,19 @@ def secure_file(path: Path) -> None:
         tighten(each)
 
 
+def limit_statements(connection: Any, _: object) -> None:
+    """Set up a new connection of Postgres."""
+    # Not by the option of a connection, which poolers refuse.
+    connection.execute(f"SET statement_timeout = '{WAIT_S}s'")
+    connection.commit()
+
+
 def configure_connection(connection: Any, _: object) -> None:
     """Set up a new SQLite connection."""
     # IMMEDIATE: a transaction that reads and then writes would otherwise fail instead of waiting.
     connection.isolation_level = "IMMEDIATE"
     for pragma in (
-        f"busy_timeout={BUSY_TIMEOUT_MS}",
+        f"busy_timeout={1_000 * WAIT_S}",
         "foreign_keys=ON",
         "synchronous=FULL",
         # Erased rows are overwritten, not only unlinked.

@@ -3,15 +3,21 @@
 import contextlib
 import threading
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+import sqlalchemy as sa
 
+from service.jobs.database import open_database
 from service.jobs.records import FIT, NewJob, StoredBlob
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import Machine, running_service
 from tests.integration.service.test_images import engine_of
+
+WRITERS = 60
+"""More than the threads in which requests are answered."""
 
 STUCK_S = 60.0
 """A guard against hanging."""
@@ -47,6 +53,29 @@ def test_a_refusal_is_logged_in_a_line_not_in_a_trace(
     (number,) = [n for n, line in enumerate(lines) if "GET /v1/fits: the database is" in line]
     assert "not currently accepting connections" in lines[number]
     assert lines[number + 1].startswith("20"), "it is followed by another record"
+
+
+def test_a_database_that_takes_no_writes_answers_questions_and_tells_writers_so(machine: Machine):
+    with (
+        running_service(machine, api_only=True) as service,
+        ThreadPoolExecutor(WRITERS) as posting,
+        writes_locked(machine),
+    ):
+        posted = [posting.submit(service.post) for _ in range(WRITERS)]
+        assert service.client.get("/v1/fits").status_code == 200
+        for each in posted:
+            assert_refused_for_now(each.result())
+
+
+@contextlib.contextmanager
+def writes_locked(machine: Machine) -> Iterator[None]:
+    """Hold tables as a migration or a backup may."""
+    assert machine.database_url is not None
+    database = open_database(machine.database_url, connections=1)
+    with database.begin() as connection:
+        connection.execute(sa.text("LOCK TABLE maquette_jobs, maquette_erasures IN EXCLUSIVE MODE"))
+        yield
+    database.dispose()
 
 
 def test_erasing_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(

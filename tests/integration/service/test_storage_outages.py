@@ -1,11 +1,13 @@
-"""An object storage that refuses connections or answers 503: callers are told, jobs wait for it."""
+"""An object storage that refuses or says nothing: callers are told at once, jobs wait for it."""
 
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from service.jobs.blobs_s3 import READ_TIMEOUT_S
 from tests.chaos.outages.storage_door import Manner, StorageDoor, storage_door
 from tests.integration.service.harness import (
     Machine,
@@ -76,11 +78,26 @@ def test_a_storage_that_says_nothing_keeps_neither_probes_nor_other_routes_waiti
         with ThreadPoolExecutor(PROBES) as probing:
             answers = list(probing.map(lambda _: _silence_is_told(service), range(PROBES)))
         assert all(answers)
-        assert service.client.get("/v1/fits").status_code == 200
+        eventually(lambda: _is_refused_at_once(service), what="the storage is not waited for")
+        began = time.monotonic()
+        with ThreadPoolExecutor(PROBES) as posting:
+            refused = [
+                posting.submit(assert_refused_for_now, service, "POST", "/v1/fits")
+                for _ in range(PROBES)
+            ]
+            assert service.client.get("/v1/fits").status_code == 200
+        assert all(each.result() for each in refused)
+        assert time.monotonic() - began < READ_TIMEOUT_S, "somebody waited for the storage"
         door.recover()
         eventually(
             lambda: service.client.get("/healthz/ready").status_code == 200, what="ready again"
         )
+
+
+def _is_refused_at_once(service: Service) -> bool:
+    began = time.monotonic()
+    assert_refused_for_now(service, "POST", "/v1/fits")
+    return time.monotonic() - began < READ_TIMEOUT_S
 
 
 def _silence_is_told(service: Service) -> bool:
