@@ -11,11 +11,11 @@ from pydantic import BaseModel
 from api_schemas.problems import Problem
 from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
+from service.compute import questions
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
 from service.compute.messages import DoneMessage, ProblemMessage, TaskMessage
+from service.compute.questions import FILE, QUESTION, BodyTask, ConversionTask
 from service.compute.tasks import Parts
-from service.estimates import questions
-from service.estimates.questions import FILE, QUESTION, BodyTask, ConversionTask
 from service.process.logs import current_log_context
 from service.representation.formats import MeshFormat
 from service.submissions.refusal import RefusedError
@@ -59,7 +59,7 @@ class Estimators:
         patient: bool = True,
         label: str | None = None,
     ) -> Parts:
-        """Ask a question of :mod:`service.estimates.questions`, and return the parts of the answer.
+        """Ask a question of :mod:`service.compute.questions`, and return the parts of the answer.
 
         Parameters
         ----------

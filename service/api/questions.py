@@ -33,8 +33,8 @@ from service.api.requests import (
     read_json_or_form,
 )
 from service.api.storage import with_blobs
-from service.estimates import questions
-from service.estimates.questions import ANSWER, FILE, BodyTask
+from service.compute import questions
+from service.compute.questions import ANSWER, FILE, BodyTask
 from service.jobs.inputs import IMAGE
 from service.representation.csv_tables import CSV, measurements_csv
 from service.representation.formats import GLB, MESH_FORMATS

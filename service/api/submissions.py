@@ -29,7 +29,7 @@ from service.api.requests import (
     read_json_or_form,
 )
 from service.api.storage import disk_full, erase_at_once, store, storing, with_blobs, writing
-from service.estimates.questions import BodyTask
+from service.compute.questions import BodyTask
 from service.jobs.addresses import target_fault
 from service.jobs.inputs import IMAGE, MASK, SentPicture
 from service.jobs.records import (

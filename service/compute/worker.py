@@ -26,7 +26,7 @@ from service.settings import Settings
 LOG: Final = logging.getLogger(__name__)
 
 PIPELINE: Final = "service.compute.pipeline"
-ESTIMATES: Final = "service.estimates.answers"
+ESTIMATES: Final = "service.compute.answers"
 PRELOAD: Final = "service.compute.preload"
 
 NICENESS: Final = 5

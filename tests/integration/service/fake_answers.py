@@ -28,14 +28,19 @@ from fitter.vocabulary.outcomes import (
     SeenFrom,
     Severity,
 )
-from service.compute.tasks import ProblemError, UnusableInputError
-from service.estimates.questions import (
+from service.compute.questions import (
+    BODY,
+    CONVERSION,
+    FILE,
+    INITIAL_POSE,
+    JPEG,
+    POINTS,
+    QUESTION,
     BodyTask,
     ConversionTask,
-    EstimatedBody,
-    ProposedPoints,
-    estimate_tasks,
+    answered,
 )
+from service.compute.tasks import ChildSetup, Observe, Parts, ProblemError, UnusableInputError
 from service.submissions.submission import no_detector
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
@@ -54,8 +59,8 @@ NOBODY = Finding(
 KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 
-def body(task: BodyTask, models: Path | None) -> EstimatedBody:
-    del models
+def body(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+    task = BodyTask.model_validate_json(parts[QUESTION])
     for name, value in task.request.measurements.items():
         _obey(name, value)
     if task.request.weight_kg == NOBODYS_WEIGHT_KG:
@@ -67,8 +72,8 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
                 remedy="Leave out the least certain.",
             )
         )
-    return EstimatedBody(
-        estimate=BodyEstimate(
+    return answered(
+        BodyEstimate(
             gender=task.request.gender,
             height_m=task.request.height_m or 1.7,
             shape=(0.0, 0.0),
@@ -88,51 +93,51 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
             plausibility=1.0,
             body_model="0" * 64,
         ),
-        glb=GLB if task.with_glb else b"",
+        GLB if task.with_glb else b"",
     )
 
 
-def initial_pose(asked: InitialPoseRequest, models: Path | None) -> InitialPose:
-    del models
+def initial_pose(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+    asked = InitialPoseRequest.model_validate_json(parts[QUESTION])
     size = asked.image_size
-    return InitialPose(
-        gender=asked.gender,
-        height_m=asked.height_m or 1.7,
-        camera=CameraResult(
-            focal_length_px=700.0,
-            centre_x=size.width / 2,
-            centre_y=size.height / 2,
-            width=size.width,
-            height=size.height,
-        ),
-        focal_length_source=FocalLengthSource.ASSUMED,
-        body=BodyResult(
-            pose={"pelvis": (0.0, 0.0, 0.0)},
-            translation_m=(0.0, 0.0, 3.0),
-            shape=(0.0, 0.0),
-        ),
-        outline=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
-        points={"nose": (1.0, 1.0)},
-        residual_px=dict.fromkeys(asked.points, 0.5),
-        limbs=(
-            LimbFacing(
-                limb="left_shin",
-                facing=Facing.TOWARD,
-                source=FacingSource.PRIOR,
-                ambiguous=True,
-                alternative_nats=1.0,
+    return answered(
+        InitialPose(
+            gender=asked.gender,
+            height_m=asked.height_m or 1.7,
+            camera=CameraResult(
+                focal_length_px=700.0,
+                centre_x=size.width / 2,
+                centre_y=size.height / 2,
+                width=size.width,
+                height=size.height,
             ),
-        ),
-        assumptions=(),
-        warnings=(),
+            focal_length_source=FocalLengthSource.ASSUMED,
+            body=BodyResult(
+                pose={"pelvis": (0.0, 0.0, 0.0)},
+                translation_m=(0.0, 0.0, 3.0),
+                shape=(0.0, 0.0),
+            ),
+            outline=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
+            points={"nose": (1.0, 1.0)},
+            residual_px=dict.fromkeys(asked.points, 0.5),
+            limbs=(
+                LimbFacing(
+                    limb="left_shin",
+                    facing=Facing.TOWARD,
+                    source=FacingSource.PRIOR,
+                    ambiguous=True,
+                    alternative_nats=1.0,
+                ),
+            ),
+            assumptions=(),
+            warnings=(),
+        )
     )
 
 
-def points(
-    asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
-) -> ProposedPoints:
+def points(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
     """See as many people as the picture says, of one of them a nose, and repeat what was asked."""
-    del max_pixels, detector
+    asked, image = PointsRequest.model_validate_json(parts[QUESTION]), parts[FILE]
     script = json.loads(image.partition(SCRIPT_MARK)[2])
     if script.get("no_detector") and not asked.points:
         raise ProblemError(no_detector())
@@ -156,8 +161,8 @@ def points(
         source=PointSource.PROPOSAL,
         confidence=0.9,
     )
-    return ProposedPoints(
-        proposal=PointsProposal(
+    return answered(
+        PointsProposal(
             image_size=ImageSize(width=640, height=480),
             persons=((0.0, 0.0, 64.0, 48.0),) * count,
             person=person if count else None,
@@ -172,15 +177,17 @@ def points(
             assumptions=(),
             warnings=(),
         ),
-        mask=MASK if asked.mask and count else b"",
+        MASK if asked.mask and count else b"",
     )
 
 
-def conversion(task: ConversionTask, glb: bytes) -> bytes:
-    return f"{task.ending} of {len(glb)} bytes".encode()
+def conversion(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+    task = ConversionTask.model_validate_json(parts[QUESTION])
+    return {FILE: f"{task.ending} of {len(parts[FILE])} bytes".encode()}
 
 
-def jpeg(image: bytes, *, max_pixels: int) -> bytes:
+def jpeg(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+    image = parts[FILE]
     script = json.loads(image.partition(SCRIPT_MARK)[2])
     if script.get("damaged"):
         raise UnusableInputError(
@@ -191,7 +198,8 @@ def jpeg(image: bytes, *, max_pixels: int) -> bytes:
                 remedy="Send the whole file.",
             )
         )
-    return f"JPEG of {len(image)} bytes, at most {max_pixels} pixels".encode()
+    told = f"JPEG of {len(image)} bytes, at most {setup.max_pixels} pixels"
+    return {FILE: told.encode()}
 
 
 def _obey(name: str, value: object) -> None:
@@ -216,10 +224,10 @@ def _obey(name: str, value: object) -> None:
         )
 
 
-TASKS = estimate_tasks(
-    body=body,
-    initial_pose=initial_pose,
-    points=points,
-    conversion=conversion,
-    jpeg=jpeg,
-)
+TASKS = {
+    BODY: body,
+    INITIAL_POSE: initial_pose,
+    POINTS: points,
+    CONVERSION: conversion,
+    JPEG: jpeg,
+}

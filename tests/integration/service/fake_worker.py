@@ -11,7 +11,7 @@ import threading
 from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
-ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.estimates.answers"}
+ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.compute.answers"}
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 REAL_PRELOAD = "service.compute.preload"
 

@@ -14,8 +14,8 @@ from service.compute import lanes
 from service.compute.fork_server import ForkServer, end
 from service.compute.lanes import QuickLane
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.compute.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
 from service.compute.tasks import child_setup
-from service.estimates.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
 from service.settings import Settings
 from tests.integration.service.fake_answers import GATE, GLB
 from tests.integration.service.harness import PATIENCE_S, eventually, is_running

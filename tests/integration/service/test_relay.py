@@ -15,7 +15,7 @@ from fitter.vocabulary.choices import Gender
 from service.compute import lanes
 from service.compute.lanes import SOCKET, Ask, asking
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.estimates.questions import BODY, FILE, QUESTION, BodyTask
+from service.compute.questions import BODY, FILE, QUESTION, BodyTask
 from service.process.supervisor import SupervisedProcess
 from tests.integration.service.fake_answers import GLB
 from tests.integration.service.harness import PATIENCE_S, REPOSITORY, eventually, is_running

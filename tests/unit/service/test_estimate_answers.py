@@ -5,26 +5,67 @@ from pathlib import Path
 
 import pytest
 from PIL import Image, ImageChops, ImageStat
+from pydantic import BaseModel
 
 from api_schemas.fit import FitRequest
 from api_schemas.person import UncertainMeasurement
 from api_schemas.picture import Limb
 from api_schemas.points import Point, PointSource
-from api_schemas.questions import BodyRequest, ImageSize, InitialPoseRequest, PointsRequest
+from api_schemas.questions import (
+    BodyEstimate,
+    BodyRequest,
+    ImageSize,
+    InitialPose,
+    InitialPoseRequest,
+    PointsProposal,
+    PointsRequest,
+)
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
-from service.compute.tasks import ProblemError, UnusableInputError
+from service.compute.answers import TASKS
+from service.compute.questions import (
+    ANSWER,
+    BODY,
+    FILE,
+    INITIAL_POSE,
+    JPEG,
+    POINTS,
+    QUESTION,
+    BodyTask,
+    ProposedPoints,
+)
+from service.compute.tasks import ChildSetup, Parts, ProblemError, UnusableInputError
 from service.demo_data.sample import load_sample
-from service.estimates.answers import body, initial_pose, jpeg, points
-from service.estimates.questions import BodyTask
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
+
+
+def asked(
+    task: str, question: BaseModel | None, file: bytes = b"", *, detector: Path | None = None
+) -> Parts:
+    setup = ChildSetup(name="estimator", max_pixels=1_000_000, detector=detector)
+    text = b"" if question is None else question.model_dump_json().encode()
+    return TASKS[task](setup, {QUESTION: text, FILE: file}, lambda _: None)
+
+
+def points(
+    question: PointsRequest, image: bytes, *, detector: Path | None = None
+) -> ProposedPoints:
+    parts = asked(POINTS, question, image, detector=detector)
+    proposal = PointsProposal.model_validate_json(parts[ANSWER])
+    return ProposedPoints(proposal=proposal, mask=parts[FILE])
+
+
+def jpeg(image: bytes) -> bytes:
+    return asked(JPEG, None, image)[FILE]
+
 
 SAMPLE = FitRequest.model_validate_json(load_sample().request)
 
 
 def answer(**known: object):
     request = BodyRequest.model_validate({"gender": Gender.FEMALE} | known)
-    return body(BodyTask(request=request, with_glb=False), None).estimate
+    question = BodyTask(request=request, with_glb=False)
+    return BodyEstimate.model_validate_json(asked(BODY, question)[ANSWER])
 
 
 def test_height_weight_and_measurements_are_known_alike():
@@ -71,7 +112,8 @@ def sample_pose(**changes: object):
         points=SAMPLE.views[0].given_points,
         image_size=ImageSize(width=720, height=960),
     ).model_copy(update=changes)
-    return options, initial_pose(options, None)
+    pose = asked(INITIAL_POSE, options)[ANSWER]
+    return options, InitialPose.model_validate_json(pose)
 
 
 def test_the_sample_s_clicks_give_a_body_near_them_with_an_outline_round_them():
@@ -105,7 +147,7 @@ def test_a_pose_of_somebody_nobody_is_is_refused_where_it_was_said():
 def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     sample = load_sample()
     task = PointsRequest(mask=True)
-    found = points(task, sample.image, max_pixels=1_000_000, detector=None)
+    found = points(task, sample.image)
     with Image.open(io.BytesIO(found.mask)) as mask:
         assert (mask.mode, mask.size) == ("L", (720, 960))
     proposal = found.proposal
@@ -121,10 +163,7 @@ def sample_of_a_phone() -> bytes:
 
 
 def test_points_of_a_heic_are_those_of_the_jpeg():
-    found = [
-        points(PointsRequest(), image, max_pixels=1_000_000, detector=None)
-        for image in (load_sample().image, sample_of_a_phone())
-    ]
+    found = [points(PointsRequest(), image) for image in (load_sample().image, sample_of_a_phone())]
     jpeg_points, heic_points = (each.proposal.points for each in found)
     assert len(jpeg_points) >= 16
     assert jpeg_points.keys() == heic_points.keys()
@@ -137,14 +176,14 @@ def test_points_of_a_heic_are_those_of_the_jpeg():
 
 def test_a_heic_is_checked_with_the_lens_of_its_exif_block():
     task = PointsRequest(view=ViewKind.FRONT, height_m=1.804)
-    found = points(task, sample_of_a_phone(), max_pixels=1_000_000, detector=None)
+    found = points(task, sample_of_a_phone())
     assert found.proposal.distance_m == pytest.approx(
         checked_sample(view=ViewKind.FRONT, height_m=1.804).distance_m, rel=0.03
     )
 
 
 def test_a_heic_is_written_as_a_jpeg_that_stands_upright():
-    written = Image.open(io.BytesIO(jpeg(sample_of_a_phone(), max_pixels=1_000_000)))
+    written = Image.open(io.BytesIO(jpeg(sample_of_a_phone())))
     assert (written.format, written.size) == ("JPEG", (720, 960))
     assert written.getexif().get(0x0112, 1) == 1
     reference = Image.open(io.BytesIO(load_sample().image)).resize((72, 96)).convert("RGB")
@@ -154,13 +193,13 @@ def test_a_heic_is_written_as_a_jpeg_that_stands_upright():
 
 def test_what_cannot_be_decoded_cannot_be_written_as_a_jpeg():
     with pytest.raises(UnusableInputError) as caught:
-        jpeg(sample_of_a_phone()[:9_000], max_pixels=1_000_000)
+        jpeg(sample_of_a_phone()[:9_000])
     assert (caught.value.error.field, caught.value.error.code) == ("image", "image-damaged")
 
 
 def checked_sample(*, detector: Path | None = None, **said: object):
     request = PointsRequest.model_validate(said)
-    found = points(request, load_sample().image, max_pixels=1_000_000, detector=detector)
+    found = points(request, load_sample().image, detector=detector)
     return found.proposal
 
 
@@ -189,6 +228,7 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
     assert (found.findings, found.persons, found.seen_from) == ((), (), SeenFrom.FRONT)
     assert {each.code for each in found.not_checked} == {
         "nobody-found",
+        "face-hidden",
         "several-people",
         "arms-against-trunk",
         "clothes-loose",
@@ -217,15 +257,10 @@ def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):
     ):
         task = PointsRequest(person=person)
         with pytest.raises(UnusableInputError) as caught:
-            points(task, image, max_pixels=1_000_000, detector=None)
+            points(task, image)
         assert (caught.value.error.field, caught.value.error.code) == (field, code)
     with pytest.raises(ProblemError, match="detector-not-installed"):
-        points(
-            PointsRequest(),
-            sample.image,
-            max_pixels=1_000_000,
-            detector=tmp_path,
-        )
+        points(PointsRequest(), sample.image, detector=tmp_path)
 
 
 def test_memory_that_runs_out_is_no_fault_of_the_picture_s(monkeypatch):
@@ -235,5 +270,5 @@ def test_memory_that_runs_out_is_no_fault_of_the_picture_s(monkeypatch):
     monkeypatch.setattr("fitter.observation.decoding.as_srgb", exhausted)
     task = PointsRequest()
     with pytest.raises(UnusableInputError) as caught:
-        points(task, load_sample().image, max_pixels=1_000_000, detector=None)
+        points(task, load_sample().image)
     assert (caught.value.error.field, caught.value.error.code) == ("image", "out-of-memory")

@@ -12,8 +12,8 @@ from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.compute.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.compute.tasks import Parts
-from service.estimates.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.process.data_folder import Disk
 from service.representation.formats import OBJ
 from service.submissions.refusal import RefusedError
