@@ -55,7 +55,7 @@ def run_demo(output: Path, sample: Sample, *, serve_command: Sequence[str] = SER
             file = output / name
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(maquette.file(fit, name))
-        result = maquette.result(fit, stages=True)
+        result = maquette.result(fit)
     print_result(result, truth=sample.truth)
     print(
         f"{time.monotonic() - started:.1f} s from start to result. The pictures (overlay.png, "

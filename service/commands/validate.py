@@ -189,7 +189,7 @@ def _null_errors(
         population = equipment.model(row.gender).population
         given = {name: KnownMeasurement(value=true[name]) for name in known}
         body = estimate_body(population, given).measurements
-        for each in (each.measurement for each in body):
+        for each in body:
             if each.name in true.keys() - set(known) - {STATURE}:
                 errors.setdefault(each.name, []).append([each.value - true[each.name]])
     return errors
