@@ -54,16 +54,16 @@ MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 """Allowance, besides the pictures, for the JSON part and the multipart's own lines."""
 
 GRACE_S: Final = 5
-"""How long open requests may take to end; event streams end at once."""
+"""The time in which open requests may end; event streams end at once."""
 
 IDLE_S: Final = 5
-"""How long a connection may stay open between two requests."""
+"""The longest pause between two requests of a connection."""
 
 HEAD_BYTES: Final = 65_536
 """The longest head of a request."""
 
 UNREAD_S: Final = 30
-"""How long an answer may lie in our buffers without its reader taking any of it."""
+"""The longest time in which a reader may take nothing of an answer."""
 
 _ROUTERS: Final = (
     submissions.ROUTER,
@@ -75,7 +75,7 @@ _ROUTERS: Final = (
     problems.ROUTER,
     pages.ROUTER,
 )
-"""In the order of the OpenAPI document."""
+"""All resources, in the order of the OpenAPI document."""
 
 CORS_METHODS: Final = ("DELETE", "GET", "POST")
 CORS_REQUEST_HEADERS: Final = (

@@ -47,7 +47,7 @@ RETRY_UNKNOWN_S: Final = 0.5
 """Unknown keys cause at most one query per this time, all of them together."""
 
 BETWEEN_NOTES_S: Final = 60.0
-"""Also the error of what is told: a use within this time after another is not written."""
+"""The error of a key's last use: a use within this time after another is not written."""
 
 KEY_REMEDY: Final = (
     "Send the header 'Authorization: Bearer' with a key; whoever runs the service makes one with: "
@@ -57,7 +57,7 @@ KEY_REMEDY: Final = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Caller:
-    """Who sends a request: for a tenant, and with which of its keys."""
+    """The sender of a request: a tenant, and the key it used."""
 
     tenant: str
     key_id: str | None = None

@@ -1,4 +1,4 @@
-"""What the resources share, built once in :func:`service.api.app.create_app`, and for whom."""
+"""The parts that all resources share, and the tenant of one request."""
 
 import threading
 from dataclasses import dataclass, fields

@@ -25,7 +25,7 @@ SPARE_THREADS: Final = 4
 """Threads beyond what the estimators take at a time: there, one too many is refused at once."""
 
 SOON_S: Final = 2
-"""When to ask an estimator again that is busy or starting."""
+"""The pause before an estimator that is busy or starting is asked again."""
 
 UNUSABLE: Final = 422
 
@@ -35,7 +35,7 @@ OUTCOMES: Final[Mapping[str, str]] = {
     TIMED_OUT.code: "timed_out",
     FAILED.code: "failed",
 }
-"""How metrics label the problem of a question; every other one is that the question is refused."""
+"""Labels of metrics for problems of estimators; any other problem means a refused question."""
 
 
 class Estimators:

@@ -6,19 +6,17 @@ import re
 import threading
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any, Final
 
-from fastapi import Header, Request, Response
+from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
 from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 from starlette.concurrency import run_in_threadpool
-from starlette.types import Receive, Scope, Send
 
 from api_schemas.jobs import EventData, EventKind
-from api_schemas.problems import problem
-from service.api.problems import not_found, problem_response
+from service.api.problems import ProblemError, not_found, problem_error
 from service.jobs.engine import JobEngine, TenantJobs
 from service.jobs.records import ACTIVE, TERMINAL, EngineUnavailableError, JobEvent, JobRecord
 
@@ -35,7 +33,7 @@ RECONNECT_MS: Final = 1_000
 MAX_WAIT_S: Final = 60
 
 OWNERS_SHARE: Final = 100
-"""How many streams and waits of one owner there may be at a time, of all that a process answers."""
+"""The most streams and waits of one owner at a time in a process."""
 
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
 Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
@@ -121,7 +119,7 @@ class EventFeed:
 
     @property
     def is_ending(self) -> bool:
-        """Whether the process is stopping: clients that follow a job should ask another process."""
+        """True once the process is stopping: clients that follow a job should ask another one."""
         return self._draining.is_set()
 
     async def run(self) -> None:
@@ -153,47 +151,28 @@ class EventFeed:
 
 
 def event_stream(
-    feed: EventFeed, owner: str, jobs: TenantJobs, record: JobRecord, last_event_id: int | None
+    feed: EventFeed, jobs: TenantJobs, record: JobRecord, last_event_id: int | None
 ) -> Response:
     """Answer with the events of a fit, as they come; 204 after its end."""
     # An event number that never existed: send all that follow.
     seen = min(last_event_id or 0, record.last_event)
     if record.state in TERMINAL and seen == record.last_event:
         return Response(status_code=204)
-    return _EventStream(
+    return StreamingResponse(
         _stream(feed, jobs, record.id, seen),
         media_type="text/event-stream",
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
-        place=feed.place(owner),
     )
 
 
-class _EventStream(StreamingResponse):
-    """A stream that has one of its owner's places, or says that there is none."""
-
-    def __init__(
-        self,
-        content: AsyncIterator[bytes],
-        *,
-        media_type: str,
-        headers: Mapping[str, str],
-        place: AbstractContextManager[bool],
-    ) -> None:
-        super().__init__(content, media_type=media_type, headers=headers)
-        self._place = place
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        with self._place as has_place:
-            if has_place:
-                await super().__call__(scope, receive, send)
-                return
-        refusal = problem(
-            "too-many-requests",
-            code="too-many-streams",
-            detail="Too many of your fits are followed already.",
-            remedy="Follow fewer fits at a time, or look at them now and then.",
-        )
-        await problem_response(Request(scope), refusal)(scope, receive, send)
+def too_many_streams() -> ProblemError:
+    """Say that the owner has no place to follow one more."""
+    return problem_error(
+        slug="too-many-requests",
+        code="too-many-streams",
+        detail="Too many of your fits are followed already.",
+        remedy="Follow fewer fits at a time, or look at them now and then.",
+    )
 
 
 async def _stream(

@@ -36,7 +36,7 @@ PICTURES: Final = (JPEG, "image/png", "image/webp", "image/heic")
 """The kinds of pictures that are accepted."""
 
 TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
-"""What lies next to a textured mesh, that its material refers to."""
+"""Files next to a textured mesh, to which its material refers."""
 
 ANYTHING: Final = "*/*"
 OCTETS: Final = "application/octet-stream"
@@ -113,7 +113,7 @@ def answer_document(content: bytes, tag: str, if_none_match: str | None) -> Resp
 
 
 def is_known(tag: str, if_none_match: str | None) -> bool:
-    """Whether the client already has these bytes."""
+    """Return true if the client already has these bytes."""
     return if_none_match is not None and (f'"{tag}"' in if_none_match or if_none_match == "*")
 
 

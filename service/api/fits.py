@@ -1,5 +1,6 @@
 """Fits: list, look at, follow, cancel and erase them; their requests, results and files."""
 
+from collections.abc import AsyncIterator
 from functools import partial
 from typing import Annotated, Final
 from uuid import UUID
@@ -13,7 +14,7 @@ from api_schemas.labels import Label
 from api_schemas.problems import Problem, problem
 from api_schemas.results import FitResult
 from service.api.context import Context
-from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
+from service.api.events import EVENT_ANSWERS, LastEventId, event_stream, too_many_streams
 from service.api.files import (
     FORMATS,
     NOT_MODIFIED,
@@ -57,6 +58,17 @@ def _found(fit_id: UUID, jobs: Annotated[TenantJobs, Depends(_tenants_fits)]) ->
 
 Found = Annotated[JobRecord, Depends(_found)]
 """The fit that the path names; 404 where there is none."""
+
+
+async def _place(context: Context) -> AsyncIterator[None]:
+    with context.feed.place(context.tenant) as has_place:
+        if not has_place:
+            raise too_many_streams()
+        yield
+
+
+Place = Annotated[None, Depends(_place, scope="request")]
+"""A place of the owner's, from before the answer to its end; 429 where all are taken."""
 
 
 def find(jobs: TenantJobs, fit_id: UUID) -> JobRecord:
@@ -116,13 +128,15 @@ def get_fit(record: Found, response: Response, if_none_match: IfNoneMatch = None
     response_class=StreamingResponse,
     responses=EVENT_ANSWERS | documented(*FIT_PROBLEMS),
 )
-def follow_fit(record: Found, context: Context, last_event_id: LastEventId = None) -> Response:
+def follow_fit(
+    record: Found, context: Context, _place: Place, last_event_id: LastEventId = None
+) -> Response:
     """Stream state changes, stages, progress and energies; `view` says of which picture.
 
     All events since the fit was accepted are kept: a client that comes late or reconnects misses
     none.
     """
-    return event_stream(context.feed, context.tenant, context.jobs, record, last_event_id)
+    return event_stream(context.feed, context.jobs, record, last_event_id)
 
 
 @ROUTER.post(

@@ -10,28 +10,28 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service.representation.formats import GLB, STL
 
 NOTHING: Final = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-"""For responses that are not pages: opened in a browser, they may load and run nothing."""
+"""The policy of responses that are not pages: in a browser they may load and run nothing."""
 
 STAND_ALONE: Final = (
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'"
 )
-"""For self-contained documents: they may show what is inside, and run and load nothing."""
+"""The policy of self-contained documents: they show what is inside, run and load nothing."""
 
 OWN_FILES: Final = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "font-src 'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""For our own pages: only files of this service, nothing inline, no framing."""
+"""The policy of our own pages: files of this service alone, nothing inline, no framing."""
 
 STATIC_SITE: Final = f"{OWN_FILES}; style-src-attr 'unsafe-inline'"
-"""For pages of a generator that writes widths into their elements."""
+"""The policy of pages of a generator that writes widths into their elements."""
 
 OWN_CAMERA: Final = (
     "accelerometer=(self), camera=(self), gyroscope=(self), geolocation=(), microphone=()"
 )
-"""For the page that takes pictures to be measured; its level needs the two sensors."""
+"""The permissions of the page that takes pictures; its level needs the two sensors."""
 
 ALWAYS: Final[Mapping[str, str]] = {
     "X-Content-Type-Options": "nosniff",

@@ -27,11 +27,11 @@ from service.process.data_folder import Disk
 ROUTER: Final = APIRouter(tags=["health"])
 
 ANSWER_WITHIN_S: Final = 1.5
-"""What has not been found out by then is not ready: probes wait for two seconds and more."""
+"""The time limit of a look; probes wait for two seconds and more."""
 
 SERVED_AGAIN_S: Final = 0.1
-"""How long an answer is given again without another look: whoever asks without a pause costs ten
-looks a second, each a write to database and storage."""
+"""The time for which an answer is given again without another look: whoever asks without a pause
+costs ten looks a second, each a write to database and storage."""
 
 SILENT: Final = {
     "database": ("database-unavailable", "The database has not answered for {seconds:.0f} s."),
@@ -170,7 +170,7 @@ class Readiness:
 
 
 def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Health]:
-    """What a look is made at: disk, database, storage and workers."""
+    """Build a look at disk, database, storage and workers."""
 
     def check(look: Look) -> Health:
         # First: a database on a full disk cannot be written, and would be reported as unavailable.

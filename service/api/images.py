@@ -1,7 +1,9 @@
 """Pictures uploaded once, for any number of initial poses and fits."""
 
+import contextlib
 import hashlib
 from datetime import UTC, datetime
+from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
@@ -21,7 +23,14 @@ from service.api.files import (
 from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found, problem_error
 from service.api.requests import Part, body, form_content, read_form
-from service.api.storage import disk_full, erase_at_once, erase_blobs, storing, with_blobs, writing
+from service.api.storage import (
+    disk_full,
+    erase_at_once,
+    erase_blobs,
+    stored_content,
+    storing,
+    writing,
+)
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
 from service.jobs.images import (
     ImageQuotaError,
@@ -31,7 +40,7 @@ from service.jobs.images import (
 )
 from service.jobs.inputs import IMAGE
 from service.jobs.records import StoredBlob
-from service.submissions.refusal import RefusedError, refused_field
+from service.submissions.refusal import refused_field
 from service.submissions.submission import check_picture
 
 PATH: Final = "/v1/images"
@@ -151,7 +160,8 @@ async def get_picture(
         raise not_found(what="such picture")
     picture = StoredBlob(digest=record.id, media_type=record.media_type)
     rendition = picture_rendition(picture, accept=wanted.accept)
-    return await answer_file(context, rendition, lambda _: _read(context, record), wanted)
+    read = partial(stored_content, context.blobs, record.scope)
+    return await answer_file(context, rendition, read, wanted)
 
 
 @ROUTER.delete(
@@ -169,8 +179,8 @@ async def erase_image(image_id: Annotated[ImageId, Path()], context: Context) ->
     return Response(status_code=204)
 
 
-def known_image(context: ApiContext, image_id: str, *, field: str) -> ImageRecord:
-    """Return the picture a request names in a field.
+def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
+    """Return the file of the picture that a request names in a field.
 
     Raises
     ------
@@ -178,29 +188,10 @@ def known_image(context: ApiContext, image_id: str, *, field: str) -> ImageRecor
         If there is no such picture, or no longer.
     """
     record = context.images.find(image_id)
-    if record is None:
-        raise _unknown(field)
-    return record
-
-
-def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
-    """Return the file of the picture a request names in a field; raises as :func:`known_image`."""
-    record = known_image(context, image_id, field=field)
-    try:
-        return context.blobs.get(record.scope, record.id)
-    except BlobMissingError as error:
-        raise _unknown(field) from error
-
-
-async def _read(context: ApiContext, record: ImageRecord) -> bytes:
-    try:
-        return await with_blobs(context.blobs, context.blobs.get, record.scope, record.id)
-    except BlobMissingError as error:
-        raise not_found(what="such picture any more") from error
-
-
-def _unknown(field: str) -> RefusedError:
-    return refused_field(
+    if record is not None:
+        with contextlib.suppress(BlobMissingError):
+            return context.blobs.get(record.scope, record.id)
+    raise refused_field(
         field=field,
         code="unknown-image",
         reason="There is no uploaded picture with this id; it may have expired.",

@@ -81,7 +81,7 @@ class RateLimit:
         self._per_second = per_minute / 60.0
         self._monotonic = monotonic
         self._buckets: dict[str, tuple[float, float]] = {}
-        """Of each key how many requests may pass, and as of when."""
+        """The number of requests that may pass, and the moment this was so, for each key."""
 
     def take(self, key: str) -> int:
         """Let a request pass and return 0, or return the whole seconds until one may pass."""
@@ -196,7 +196,7 @@ class _Body:
         self._is_whole = False
         self.is_late = False
         self.is_answered = False
-        """Whether the answer has begun: from then on the body is waited for by nobody."""
+        """True once the answer has begun: from then on nobody waits for the body."""
 
     async def receive(self) -> Message:
         """Return the next part, or the end of the request.

@@ -12,7 +12,7 @@ from service.submissions.refusal import refused_field
 MAX_PAGE: Final = 200
 
 CURSOR: Final = r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f-]{36}|[0-9a-f]{64})$"
-"""When the last entry of a page was made, in epoch seconds, and its id: a UUID or a SHA-256."""
+"""Epoch seconds at which the last entry of a page was made, and its id: a UUID or a SHA-256."""
 
 Limit = Annotated[int, Query(ge=1, le=MAX_PAGE)]
 Cursor = Annotated[
@@ -33,7 +33,7 @@ Entry = TypeVar("Entry", bound=_Record)
 
 
 def read_cursor(cursor: str | None) -> tuple[float, str] | None:
-    """When the last entry of the page before was made, and its id; None on the first page.
+    """Return time and id of the last entry of the page before; None on the first page.
 
     Raises
     ------

@@ -76,7 +76,7 @@ START_SWAGGER: Final = """SwaggerUIBundle({
 """
 
 UNCHANGING: Final = {"Cache-Control": "public, max-age=31536000, immutable"}
-"""Of files whose names contain a hash of their content."""
+"""Headers of files whose names contain a hash of their content."""
 
 FOR_A_DAY: Final = {"Cache-Control": "public, max-age=86400"}
 LOOKED_AT_AGAIN: Final = {"Cache-Control": "no-cache"}

@@ -178,7 +178,7 @@ def _on_unavailable(request: Request, error: Exception) -> Response:
 
 
 def _drivers_words(error: Exception) -> str:
-    """What the database's driver says, in one line and without the statement."""
+    """The words of the database's driver, in one line and without the statement."""
     cause = error.__cause__ or error
     return " ".join(str(getattr(cause, "orig", cause)).split())
 

@@ -29,7 +29,7 @@ REQUEST: Final = "request"
 """The part of a form that is JSON."""
 
 SPARE_PARTS: Final = 2
-"""How many parts too many are read, for a refusal that names them."""
+"""Parts beyond those allowed that are read, for a refusal that names them."""
 
 PREFIX: Final = "/v1/"
 """Probes and scrapes of metrics are not kept from their answer by what a monitor adds to them."""
@@ -208,7 +208,7 @@ _NO_TEXT: Final = "In the charset that it names, it is no text."
 
 
 def _is_text(value: UploadFile | str) -> bool:
-    """Whether a name or a content can be encoded: some charsets can express lone surrogates."""
+    """Return true if it can be encoded: some charsets can express lone surrogates."""
     if isinstance(value, str):
         try:
             value.encode()
@@ -314,6 +314,6 @@ def _encoded(coding: str) -> ProblemError:
 
 
 def _operation(request: Request) -> dict[str, Any]:
-    """What the OpenAPI document says of the operation that was asked for."""
+    """The operation that was asked for, as the OpenAPI document describes it."""
     path = request.app.openapi()["paths"].get(request.scope["route"].path, {})
     return path.get(request.method.lower(), {})

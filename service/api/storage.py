@@ -91,11 +91,11 @@ def store(blobs: BlobStore, scope: str, content: bytes, media_type: str) -> Stor
 
 
 async def stored_content(blobs: WatchedBlobs, scope: str, blob: StoredBlob) -> bytes:
-    """Read a file of a fit; 404 if it has been erased in the meantime."""
+    """Read a file; 404 if it has been erased in the meantime."""
     try:
         return await with_blobs(blobs, blobs.get, scope, blob.digest)
     except BlobMissingError as error:
-        raise not_found(what="such fit any more") from error
+        raise not_found(what="such file any more") from error
 
 
 def erase_at_once(blobs: BlobStore, scope: str) -> None:

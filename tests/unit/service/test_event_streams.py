@@ -3,6 +3,7 @@
 import asyncio
 import threading
 from collections.abc import Sequence
+from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from types import SimpleNamespace
 from typing import Any
@@ -11,7 +12,8 @@ import pytest
 from fastapi import Response
 
 from api_schemas.jobs import EventData, EventKind, JobState
-from service.api import events
+from service.api import events, fits
+from service.api.problems import ProblemError
 from service.jobs.records import EngineUnavailableError, JobEvent
 
 
@@ -84,42 +86,30 @@ def test_a_process_that_stops_ends_its_streams_though_the_database_is_away():
     assert len(stream(Jobs(absences=1_000), draining)) == 1
 
 
-def told_to(response: Any) -> list[Any]:
-    """What is sent of an answer."""
-    sent: list[Any] = []
-
-    async def receive() -> Any:
-        await asyncio.Event().wait()
-
-    async def send(message: Any) -> None:
-        sent.append(message)
-
-    scope = {"type": "http", "method": "GET", "path": "/v1/fits/a/events", "headers": []}
-    asyncio.run(response(scope, receive, send))
-    return sent
-
-
 def test_an_owner_has_a_share_of_streams_and_waits_and_others_have_theirs():
     engine: Any = None
     feed = events.EventFeed(engine, threading.Event(), owners_share=1)
-    jobs: Any = Jobs(absences=0)
-    record: Any = SimpleNamespace(id="a", state=JobState.RUNNING, last_event=0)
+    running: Any = SimpleNamespace(id="a", state=JobState.RUNNING, last_event=0)
+    ended: Any = SimpleNamespace(id="a", state=JobState.SUCCEEDED, last_event=-1)
 
-    def stream_of(owner: str) -> Any:
-        return events.event_stream(feed, owner, jobs, record, None)
+    async def followed(owner: str) -> None:
+        context: Any = SimpleNamespace(feed=feed, tenant=owner)
+        async with asynccontextmanager(fits._place)(context):
+            with feed.place(owner) as is_another:
+                assert not is_another
 
-    def wait_of(owner: str) -> Response:
+    def waited(owner: str) -> str | None:
         response = Response()
         wait = events.wait_for_end(
-            feed, owner, record, lambda: ended, prefer="wait=60", response=response
+            feed, owner, running, lambda: ended, prefer="wait=60", response=response
         )
         asyncio.run(wait)
-        return response
+        return response.headers.get("Preference-Applied")
 
-    ended: Any = SimpleNamespace(id="a", state=JobState.SUCCEEDED, last_event=-1)
     with feed.place("mine"):
-        start, body = told_to(stream_of("mine"))
-        assert (start["status"], b"too-many-streams" in body["body"]) == (429, True)
-        assert "Preference-Applied" not in wait_of("mine").headers
-        assert told_to(stream_of("another's"))[0]["status"] == 200
-    assert told_to(stream_of("mine"))[0]["status"] == 200
+        with pytest.raises(ProblemError) as caught:
+            asyncio.run(followed("mine"))
+        assert (caught.value.problem.status, caught.value.problem.code) == (429, "too-many-streams")
+        asyncio.run(followed("another's"))
+        assert waited("mine") is None
+    asyncio.run(followed("mine"))
