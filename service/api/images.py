@@ -29,6 +29,7 @@ from service.api.storage import (
     erase_blobs,
     stored_content,
     storing,
+    with_blobs,
     writing,
 )
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
