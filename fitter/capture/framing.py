@@ -35,10 +35,16 @@ _PARTS = {
     "right foot": ("right_heel", "right_toe"),
 }
 
-_NEEDED = frozenset({"left_shoulder", "right_shoulder"})
+_NEEDED = frozenset({"left_shoulder", "right_shoulder", "left_hip", "right_hip"})
 """Joints without which nothing is measured. Legs that are not seen stand straight below the trunk,
-which is measured by itself: of eleven people of the tuning half cut off at shins, thighs, hips and
-waist errors are 1.0 to 1.45 times what the fit says."""
+which is measured by itself: of twelve people of the tuning half in underwear cut off below the hips
+92 to 100 % of intervals hold, of those cut off at the navel 75 % of waists."""
+
+_SHOW_ALL = "Step back or turn the camera until there is room on all sides of the person."
+_SHOW_THE_TRUNK = (
+    "Show the person from head to foot, and from the shoulders to below the hips at least: step "
+    "back until there is room on all sides."
+)
 
 _LOOKED_FOR = {name for names in _PARTS.values() for name in names}
 
@@ -51,14 +57,15 @@ def wholeness(capture: Capture) -> Remark | None:
     if not parts:
         return None
     gone = _joints_beyond(capture.joints, shape, all_known=capture.mask is not None)
+    is_too_little = bool(gone & _NEEDED)
     return Finding(
         code=Code.CUT_OFF,
-        severity=Severity.BLOCKS if gone & _NEEDED else Severity.HARMS,
+        severity=Severity.BLOCKS if is_too_little else Severity.HARMS,
         reason=(
             f"{len(parts)} of {len(_PARTS)} parts of the person reach to the picture's border or "
             f"beyond it: {', '.join(parts)}."
         ),
-        remedy="Step back or turn the camera until there is room on all sides of the person.",
+        remedy=_SHOW_THE_TRUNK if is_too_little else _SHOW_ALL,
         points=tuple(name for name in INDEX_OF_POINT if name in beyond),
     )
 

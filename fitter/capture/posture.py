@@ -21,6 +21,13 @@ from fitter.vocabulary.outcomes import SeenFrom, Severity
 
 REMEDY: Final = "Have the person stand upright, with straight legs."
 
+OF_WHO_CANNOT: Final = (
+    "Have the person stand upright, with straight legs, if they can. Of who cannot, a body is made "
+    "of measurements taken with a tape; a picture gives the pose, by points put by hand, and rough "
+    "measurements if these are insisted on."
+)
+"""Remedy for who sits, kneels or lies, in a wheelchair for instance."""
+
 BENT_DEG, FOLDED_DEG = 35.0, 50.0
 """Both thighs turned from the trunk by more than the first make girths of waist and hips doubtful;
 from the second on nobody stands. It is 20 degrees at most of 105 people who stand or stride, 29 of
@@ -127,7 +134,7 @@ def _posture(directions: Directions) -> Remark | None:
             f"turned from the trunk by {bent:.0f} degrees, the shins from them by {knees:.0f}, "
             f"and the trunk from the vertical by {leaning:.0f}."
         ),
-        remedy=REMEDY,
+        remedy=OF_WHO_CANNOT,
         points=("left_hip", "right_hip", "left_knee", "right_knee"),
     )
 

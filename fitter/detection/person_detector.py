@@ -50,6 +50,12 @@ class DetectedPerson:
         """Whether the person seems to stand on their hands."""
         return bool(self.rim[1] > self.middle[1])
 
+    def share_within(self, width: int, height: int) -> float:
+        """Share of the line from head to foot that lies in a picture of this size."""
+        along = np.linspace(-1.0, 1.0, 41)[:, None] * (self.rim - self.middle)
+        places = self.middle + along
+        return float(np.mean(np.all((places >= 0.0) & (places <= [width, height]), axis=1)))
+
     def upright(self) -> "DetectedPerson":
         """The same person, taken to stand upright."""
         return replace(self, rim=self.middle - np.array([0.0, self.radius]))
@@ -62,7 +68,7 @@ class PersonDetector:
         self._network = network
 
     def persons(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedPerson, ...]:
-        """People in a picture (sRGB), the largest and most certain first."""
+        """People in a picture (sRGB), the whole, nearest and most certain first."""
         height, width = picture.shape[:2]
         crop = SquareCrop(
             centre=np.array([width / 2, height / 2]),
@@ -74,7 +80,11 @@ class PersonDetector:
             DetectedPerson(score=each.score, middle=each.key_points[0], rim=each.key_points[1])
             for each in _sightings(self._network, picture, crop, STRIDES, KEYPOINTS)
         ]
-        return tuple(sorted(found, key=lambda each: each.score * each.radius**0.5, reverse=True))
+
+        def importance(person: DetectedPerson) -> float:
+            return person.score * person.radius * person.share_within(width, height) ** 2
+
+        return tuple(sorted(found, key=importance, reverse=True))
 
 
 FACE_INPUT_SIZE = 128

@@ -83,7 +83,7 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
     With the trunk upright, the left of a person seen from the front lies to the right, and of one
     seen from behind to the left. Shoulders and hips must agree, and a person who shows both eyes
     is seen from the front. Legs and arms may cross; one eye or a nose may be looking over a
-    shoulder.
+    shoulder, and of a trunk in profile the order of the eyes tells nothing.
     """
     trunk = _trunk(clicks)
     if trunk is None:
@@ -105,7 +105,10 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
     eyes_from_front = None
     if _seen(clicks, "left_eye") and _seen(clicks, "right_eye"):
         eyes_from_front = _seen_from_front(clicks, "eye", trunk, breadth=0.0)
-    if eyes_from_front is not None and False in (trunk_from_front, eyes_from_front):
+    if None not in (trunk_from_front, eyes_from_front) and False in (
+        trunk_from_front,
+        eyes_from_front,
+    ):
         return (
             FitWarning(
                 code="left-and-right-may-be-swapped",

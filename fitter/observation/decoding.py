@@ -8,10 +8,12 @@ mask.
 """
 
 import io
+import math
 import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from jaxtyping import UInt8
@@ -126,6 +128,19 @@ def decode_picture(
                 ),
             )
         )
+    if _has_other_shape(exif, stored_width, stored_height):
+        remarks.append(
+            FitWarning(
+                code="other-shape",
+                message=(
+                    f"By its EXIF data the camera wrote {exif.pixel_x_dimension:.0f} x "
+                    f"{exif.pixel_y_dimension:.0f} pixels, and these are {stored_width} x "
+                    f"{stored_height}: another ratio. A squeezed picture gives wrong girths: send "
+                    "it as it was taken. If it was cropped, send the focal length in its own "
+                    "pixels."
+                ),
+            )
+        )
     return DecodedPicture(
         pixels=pixels,
         width=stored_height if is_turned else stored_width,
@@ -150,6 +165,18 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
         picture = _opened(data, field=field, max_pixels=min(max_pixels, WHOLE_PIXELS))
         picture.load()
         return np.asarray(as_grey(_upright(picture, read_exif(picture))))
+
+
+OTHER_SHAPE: Final = 0.03
+"""Difference of two ratios of width and height, of the ratio, that rounding does not explain."""
+
+
+def _has_other_shape(exif: ExifTags, width: int, height: int) -> bool:
+    """Whether the camera wrote a picture of another ratio, upright or turned."""
+    if exif.pixel_x_dimension is None or exif.pixel_y_dimension is None:
+        return False
+    was, now = exif.pixel_x_dimension / exif.pixel_y_dimension, width / height
+    return all(abs(math.log(now / each)) > OTHER_SHAPE for each in (was, 1.0 / was))
 
 
 @contextmanager

@@ -83,6 +83,7 @@ class _Tag(IntEnum):
     EXIF_DIRECTORY = 0x8769
     FOCAL_LENGTH = 0x920A
     PIXEL_X_DIMENSION = 0xA002
+    PIXEL_Y_DIMENSION = 0xA003
     FOCAL_PLANE_X_RESOLUTION = 0xA20E
     FOCAL_PLANE_RESOLUTION_UNIT = 0xA210
     FOCAL_LENGTH_IN_35MM_FILM = 0xA405
@@ -109,8 +110,8 @@ class ExifTags:
         FocalLength, millimetres.
     sensor_pixels_per_mm
         FocalPlaneXResolution, at the size the camera stored the picture in.
-    pixel_x_dimension
-        The width the camera stored the picture in.
+    pixel_x_dimension, pixel_y_dimension
+        The size the camera stored the picture in.
     """
 
     orientation: int = 1
@@ -118,6 +119,7 @@ class ExifTags:
     focal_length_mm: float | None = None
     sensor_pixels_per_mm: float | None = None
     pixel_x_dimension: float | None = None
+    pixel_y_dimension: float | None = None
 
 
 def read_exif(picture: PillowImage.Image) -> ExifTags:
@@ -142,6 +144,7 @@ def read_exif(picture: PillowImage.Image) -> ExifTags:
         focal_length_mm=_positive(directory.get(_Tag.FOCAL_LENGTH)),
         sensor_pixels_per_mm=resolution / millimetres if resolution and millimetres else None,
         pixel_x_dimension=_positive(directory.get(_Tag.PIXEL_X_DIMENSION)),
+        pixel_y_dimension=_positive(directory.get(_Tag.PIXEL_Y_DIMENSION)),
     )
 
 

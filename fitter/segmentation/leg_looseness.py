@@ -108,6 +108,9 @@ def _least_reach(
             continue
         across = np.array([-bone[1], bone[0]]) / length
         places = near + (level.along + _STRETCH)[:, None] * bone
+        if (places < 0.0).any() or (places >= person.shape[::-1]).any():
+            # Beyond the picture nothing is seen, which is not a thin leg.
+            continue
         most = _FARTHEST_M * pixels_per_metre
         covered.append(1.0 - float(np.mean([_nearest_value(bare, place) for place in places])))
         found.extend(

@@ -29,6 +29,7 @@ def test_somebody_whole_is_not_cut_off():
         (("right_wrist",), "right arm", Severity.HARMS),
         (("left_ankle", "left_toe"), "left leg, left foot", Severity.HARMS),
         (("left_shoulder",), "trunk", Severity.BLOCKS),
+        (("left_hip", "right_hip"), "trunk", Severity.BLOCKS),
     ],
 )
 def test_parts_that_are_not_in_the_picture_are_named(missing, parts, severity):

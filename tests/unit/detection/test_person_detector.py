@@ -74,5 +74,16 @@ def test_people_apart_are_told_apart_the_largest_first():
     assert [round(each.score, 3) for each in detector.persons(SQUARE)] == [0.8, 0.9]
 
 
+def test_the_whole_and_nearer_of_two_people_comes_before_one_at_the_border():
+    whole, cut_off = FIRST_OF_STRIDE_32 + 6 * 24, FIRST_OF_STRIDE_32 + 6 * 48
+    detector = answering(
+        {
+            whole: (0.8, row((0.0, 0.0), (0.0, -60.0))),
+            cut_off: (0.9, row((0.0, 0.0), (0.0, -80.0))),
+        }
+    )
+    assert [round(each.score, 3) for each in detector.persons(SQUARE)] == [0.8, 0.9]
+
+
 def test_who_is_not_sure_to_be_there_is_nobody():
     assert answering({0: (0.4, row((0.0, 0.0), (0.0, -40.0)))}).persons(SQUARE) == ()

@@ -138,6 +138,14 @@ def test_lying_down_or_standing_on_the_head_changes_no_verdict(degrees: float):
     assert warning_codes(swapped_hips) == ["shoulders-and-hips-disagree"]
 
 
+def test_of_a_trunk_in_profile_the_order_of_the_eyes_tells_nothing():
+    clicks = swapped(standing_clicks(), "eye")
+    for pair in ("shoulder", "hip"):
+        left, right = clicks[f"left_{pair}"], clicks[f"right_{pair}"]
+        clicks[f"left_{pair}"] = clicks[f"right_{pair}"] = replace(left, x=0.5 * (left.x + right.x))
+    assert warning_codes(clicks) == []
+
+
 def test_crossed_legs_give_no_warning():
     assert warning_codes(swapped(standing_clicks(), "knee", "ankle")) == []
 

@@ -33,6 +33,22 @@ def with_exif(directory: dict[int, object], *, orientation: object = None) -> by
     return encode(PillowImage.new("RGB", (WIDTH, HEIGHT)), "JPEG", exif=exif)
 
 
+@pytest.mark.parametrize(
+    ("written", "warned"),
+    [
+        ((10 * WIDTH, 10 * HEIGHT), False),
+        ((10 * HEIGHT, 10 * WIDTH), False),
+        ((10 * WIDTH + 3, 10 * HEIGHT), False),
+        ((10 * WIDTH, round(10 * HEIGHT / 0.85)), True),
+        ((10 * WIDTH, round(10 * HEIGHT / 1.15)), True),
+    ],
+)
+def test_a_picture_of_another_ratio_than_the_camera_wrote_is_warned_of(written, warned):
+    data = with_exif({0xA002: written[0], 0xA003: written[1]})
+    picture = decode_picture(data, field="image", max_pixels=10**6)
+    assert [each.code for each in picture.warnings] == ["other-shape"] * warned
+
+
 def tags(data: bytes) -> ExifTags:
     return read_exif(PillowImage.open(io.BytesIO(data)))
 

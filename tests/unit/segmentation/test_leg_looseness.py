@@ -56,6 +56,10 @@ def test_trousers_are_loose():
     assert loose(legs(0.095, 0.08)) > 0.95
 
 
+def test_legs_beyond_the_picture_are_not_thin():
+    assert loose(legs(0.065, 0.03)[: round(row(0.7))]) == pytest.approx(0.8)
+
+
 def test_a_wide_skirt_above_bare_shins_is_loose():
     assert loose(legs(0.19, 0.03), bare_below_m=KNEE_HEIGHT_M) > 0.95
 

@@ -78,6 +78,8 @@ export const answers = {
     "shading-not-used": "Too little bare, well-lit skin is seen to use shading. The result is by outline alone.",
     "shoulders-and-hips-disagree":
       "The shoulders say one side and the hips the other: a pair may be swapped. Left is the person’s own left.",
+    "other-shape":
+      "This picture is not of the shape in which the camera took it. If a program squeezed it, use the original.",
     "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
     "unusual-height":
       "Few people are this tall or this small, so ranges are wider. Check the height and the body that you chose.",
@@ -97,7 +99,8 @@ export const answers = {
     "face-hidden": "Show your face: it tells which way you face, and the colour of your skin.",
     covered:
       "Take the picture with nothing and nobody in front of the person or beside them. Something there covers or touches them, or looks like them: a part of the outline does not count, so ranges are wider.",
-    "not-standing": "Stand upright, with straight legs.",
+    "not-standing":
+      "Stand upright, with straight legs. If you cannot stand, enter measurements taken with a tape: a body follows from those.",
     child: "Only adults can be measured, and these are the proportions of a child.",
     blurred: "Hold the camera still, focus on the person, and switch on more light. This picture is blurred.",
     "too-dark": "Switch on more light, from the camera’s side and not from behind. The person is too dark.",
