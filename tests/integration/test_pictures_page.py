@@ -63,7 +63,7 @@ def codes_of(call: str, files: Iterator[Path]) -> set[str]:
 
 def proposal_codes() -> set[str]:
     """Those of the table in the module, and of the warning made by itself."""
-    file = ROOT / "fitter" / "fits" / "proposal_warnings.py"
+    file = ROOT / "fitter" / "fits" / "proposal.py"
     keys = {
         str(key.value)
         for node in ast.walk(ast.parse(file.read_text()))
@@ -155,7 +155,7 @@ def test_a_check_that_may_block_says_when():
 
 
 def test_warnings_of_fits_are_those_of_the_code():
-    of_proposals = ROOT / "fitter" / "fits" / "proposal_warnings.py"
+    of_proposals = ROOT / "fitter" / "fits" / "proposal.py"
     made = {
         file
         for file in sources("fitter", "service")
