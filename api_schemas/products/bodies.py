@@ -124,13 +124,11 @@ UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 
 
 class NamedMotion(StrEnum):
-    """Motions by name; all but ``walk`` stay on one spot, and ``turn`` goes once round."""
+    """Motions by name; all but ``walk`` stay on one spot."""
 
     WALK = "walk"
     WAVE = "wave"
-    TURN = "turn"
     SQUAT = "squat"
-    JUMPING_JACK = "jumping_jack"
 
 
 class AnimationOptions(ProductOptions):

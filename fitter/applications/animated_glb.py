@@ -64,12 +64,10 @@ def skin_of(body: MovingBody, model: BodyModel) -> Skin:
     parts = np.where(weights > 0.0, model.skinning_parts, 0)
     vertices = np.asarray(body.shapes[frame], dtype=np.float64)
     inverse_bind = np.linalg.inv(bones[frame])
-    # Of each frame the mean and the largest: all vertices of all frames are half a motion's memory.
-    errors = np.empty((len(bones), 2))
-    for each, now, exact in zip(errors, bones, body.shapes, strict=True):
-        away = blended(vertices, now @ inverse_bind, parts, weights) - exact
-        lengths = np.linalg.norm(away, axis=1)
-        each[:] = lengths.mean(), lengths.max()
+    errors = [
+        np.linalg.norm(blended(vertices, now @ inverse_bind, parts, weights) - exact, axis=1)
+        for now, exact in zip(bones, body.shapes, strict=True)
+    ]
     return Skin(
         frame=frame,
         bones=bones,
@@ -77,8 +75,8 @@ def skin_of(body: MovingBody, model: BodyModel) -> Skin:
         inverse_bind=inverse_bind,
         parts=parts,
         weights=weights,
-        mean_error_m=float(errors[:, 0].mean()),
-        largest_error_m=float(errors[:, 1].max()),
+        mean_error_m=float(np.mean(errors)),
+        largest_error_m=float(np.max(errors)),
     )
 
 

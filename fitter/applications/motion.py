@@ -14,10 +14,10 @@ import numpy as np
 from jaxtyping import Float, Float32, Integer
 
 from fitter.applications.poses import Angles, Rig, angled_pose
-from fitter.arrays import Pose, Shape, Vector3
+from fitter.arrays import Pose, Shape
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
-from fitter.numerics.rotations import rotation_matrices, rotation_vectors
+from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
 
 
@@ -103,16 +103,12 @@ class Moment:
     ----------
     angles
         By part; parts that are not named are held as at rest.
-    turn, lean
-        Of the pelvis, degrees: about the vertical to the person's left, then forward.
-    lift_m
-        How far the lowest point of the body is above the ground.
+    lean
+        Of the pelvis, degrees forward.
     """
 
     angles: Mapping[str, Angles]
-    turn: float = 0.0
     lean: float = 0.0
-    lift_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,20 +150,13 @@ def motion_of_cycle(cycle: Cycle, rig: Rig, *, first: int = 0, frames: int | Non
     numbers = np.arange(first, first + count) % cycle.frames
     moments = [cycle.moment(float(number) / cycle.frames) for number in numbers]
     poses = np.stack([angled_pose(rig, each.angles) for each in moments])
-    poses[:, 0] = [_pelvis(each) for each in moments]
+    poses[:, 0, 0] = np.radians([each.lean for each in moments])
     return Motion(
         frame_time_s=cycle.frame_time_s,
         poses=poses,
         roots=np.zeros((len(poses), 3)),
-        lifts_m=np.array([each.lift_m for each in moments]),
+        lifts_m=np.zeros(len(poses)),
     )
-
-
-def _pelvis(moment: Moment) -> Vector3:
-    """The rotation vector of the pelvis: it leans first, and is turned then."""
-    turn, lean = np.radians([moment.turn, moment.lean])
-    about, forward = rotation_matrices(np.array([[0.0, turn, 0.0], [lean, 0.0, 0.0]]))
-    return rotation_vectors((about @ forward)[None])[0]
 
 
 CONTACT_HEIGHT_M = 0.004

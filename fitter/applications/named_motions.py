@@ -1,4 +1,4 @@
-"""Motions that ship with the package, by name: the walk, and four that stay on one spot.
+"""Motions that ship with the package, by name: the walk, and two that stay on one spot.
 
 Each is a few postures in clinical angles (:mod:`fitter.applications.poses`), within the ranges of
 :mod:`fitter.body.joint_limits`. From one to the next joints move by the course of least jerk, as
@@ -205,102 +205,11 @@ def _squat(_: Rig) -> Cycle:
     return Cycle(duration_s=2.9, times=2, moment=moment)
 
 
-JUMP_S = 0.26
-"""In the air, of each jump: 8 cm high."""
-
-GROUND_S = 0.30
-"""On the ground between two jumps."""
-
-ARMS_AFTER = 0.13
-"""Of the motion: arms swing all the while, half-way up as legs are half-way apart."""
-
-
-def _jumping_jack(_: Rig) -> Cycle:
-    """Legs together and arms down, then apart and arms up, by jumps of free fall."""
-    duration_s = 2.0 * (JUMP_S + GROUND_S)
-
-    def moment(phase: float) -> Moment:
-        half, time_s = divmod(phase * duration_s, JUMP_S + GROUND_S)
-        in_air = max(0.0, time_s - GROUND_S)
-        share = least_jerk(in_air / JUMP_S)
-        spread = share if half == 0.0 else 1.0 - share
-        # Knees give as they land and straighten to jump; in the air toes point down.
-        bent = float(np.sin(np.pi * time_s / GROUND_S)) if in_air == 0.0 else 0.0
-        pointed = float(np.sin(np.pi * in_air / JUMP_S))
-        # Bent legs reach less far out.
-        apart = 3.0 + 17.0 * spread + 1.5 * bent
-        raised = 0.5 - 0.5 * float(np.cos(2.0 * np.pi * (phase - ARMS_AFTER)))
-        return Moment(
-            angles=_both(
-                upper_arm=Angles(flexion=4, abduction=10.0 + 148.0 * raised, twist=40.0 * raised),
-                forearm=Angles(flexion=14),
-                thigh=Angles(flexion=3.0 + 15.0 * bent, abduction=apart, twist=8),
-                shin=Angles(flexion=4.0 + 28.0 * bent),
-                foot=Angles(flexion=1.0 + 13.0 * bent - 26.0 * pointed, twist=apart),
-            ),
-            lift_m=0.5 * STANDARD_GRAVITY * in_air * (JUMP_S - in_air),
-        )
-
-    return Cycle(duration_s=duration_s, times=4, moment=moment)
-
-
-STEPS = 8
-"""Of one turn on the spot."""
-
-STEP_S = 0.55
-
-
-def _turn(_: Rig) -> Cycle:
-    """Once round to the left on the spot, the feet by turns; each stands while it carries."""
-    step = 360.0 / STEPS
-
-    def moment(phase: float) -> Moment:
-        number, share = divmod(phase * STEPS, 1.0)
-        # Both feet stand for the first fifth of a step.
-        share = _within(share, 0.2, 1.0)
-        # Nothing turns before the swinging foot is off the ground.
-        turned = least_jerk(_within(share, 0.15, 0.85))
-        pelvis = step * (number + turned)
-        # The foot that carries stands where it was put: ahead of the pelvis by half a step, then
-        # behind it; the other one overtakes it meanwhile.
-        carrying = step * (number + 0.5) - pelvis
-        swinging = step * (turned - 0.5)
-        high = float(np.sin(np.pi * share)) ** 2
-        left, right = (swinging, carrying) if number % 2 == 0 else (carrying, swinging)
-        raised = {True: high, False: 0.0}
-        angles = dict(_STANDING)
-        angles |= _leg("left", 7.0 + left, raised[number % 2 == 0])
-        angles |= _leg("right", 7.0 - right, raised[number % 2 == 1])
-        ahead = 6.0 * (turned - turned**2) * 4.0
-        sway = 10.0 * high * (1.0 if number % 2 == 0 else -1.0)
-        angles |= {
-            "chest": Angles(twist=0.5 * ahead),
-            "neck": Angles(flexion=4, twist=ahead),
-            "head": Angles(twist=ahead),
-            "left_upper_arm": Angles(flexion=2.0 - sway, abduction=10),
-            "right_upper_arm": Angles(flexion=2.0 + sway, abduction=10),
-        }
-        return Moment(angles=angles, turn=pelvis)
-
-    return Cycle(duration_s=STEPS * STEP_S, times=1, moment=moment)
-
-
-def _leg(side: str, twist: float, raised: float) -> dict[str, Angles]:
-    """A leg turned outward, and raised by a share of a step."""
-    return {
-        f"{side}_thigh": Angles(flexion=2.0 + 24.0 * raised, abduction=3, twist=twist),
-        f"{side}_shin": Angles(flexion=4.0 + 48.0 * raised),
-        f"{side}_foot": Angles(flexion=2.0 + 16.0 * raised, twist=3),
-    }
-
-
 NAMED_MOTIONS: Mapping[str, Callable[[Rig], Cycle]] = MappingProxyType(
     {
         "walk": stride_of,
         "wave": _wave,
-        "turn": _turn,
         "squat": _squat,
-        "jumping_jack": _jumping_jack,
     }
 )
 """By name, the motion of a person without end."""

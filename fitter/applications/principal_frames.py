@@ -11,7 +11,6 @@ its lowest value, and one more target, always at weight 1, takes the lowest valu
 X_0 stays the base, for readers that know no targets.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,9 +20,6 @@ MOST_TARGETS = 64
 
 ERROR_GOAL_M = 0.003
 """In the worst vertex of the worst frame: as many targets are taken as it needs, up to the most."""
-
-_BLOCK = 1024
-"""Vertices taken together."""
 
 _LEAST_SHARE = 1e-12
 """Of the largest variance: what is smaller is rounding."""
@@ -55,31 +51,31 @@ class PrincipalFrames:
 
 def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
     """The basis of the fewest targets that reach the goal, or of the most there may be."""
-    m = shapes.shape[1]
-    variances, vectors = np.linalg.eigh(_products(shapes))
+    moves = (shapes - shapes[0]).reshape(len(shapes), -1)
+    variances, vectors = np.linalg.eigh((moves @ moves.T).astype(np.float64))
     order = np.argsort(variances)[::-1]
     # Of a body that does not move one target is left, which does nothing: there must be one.
     order = order[: max(int((variances[order] > _LEAST_SHARE * variances.max()).sum()), 1)]
     vectors = vectors[:, order[:MOST_TARGETS]].astype(np.float32)
-    targets = _combined(vectors, shapes)
+    targets = vectors.T @ moves
     few, many = 1, len(targets)
     # Errors fall with every target in the mean; in the worst vertex all but surely.
     while few < many:
         middle = (few + many) // 2
-        if _errors(shapes, vectors, targets, middle)[:, 1].max() <= ERROR_GOAL_M:
+        if _errors(moves, vectors, targets, middle).max() <= ERROR_GOAL_M:
             many = middle
         else:
             few = middle + 1
-    errors = _errors(shapes, vectors, targets, many)
+    errors = _errors(moves, vectors, targets, many)
     lowest = vectors[:, :many].min(axis=0)
     span = np.maximum(vectors[:, :many].max(axis=0) - lowest, 1e-30)
     weights = np.clip((vectors[:, :many] - lowest) / span, 0.0, 1.0)
     return PrincipalFrames(
         base=shapes[0],
-        targets=with_rest(targets[:many] * span[:, None], weights[0]).reshape(-1, m, 3),
+        targets=with_rest(targets[:many] * span[:, None], weights[0]).reshape(-1, *shapes[0].shape),
         weights=np.column_stack([weights, np.ones(len(weights), dtype=np.float32)]),
-        largest_error_m=float(errors[:, 1].max()),
-        mean_error_m=float(errors[:, 0].mean()),
+        largest_error_m=float(errors.max()),
+        mean_error_m=float(errors.mean()),
     )
 
 
@@ -90,43 +86,12 @@ def with_rest(
     return np.concatenate([targets, -np.tensordot(weights, targets, axes=1)[None]])
 
 
-def _products(shapes: Float32[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t t"]:
-    """Inner products of all frames' displacements from the first."""
-    products = np.zeros((len(shapes), len(shapes)))
-    for some in _blocks(shapes):
-        moves = _moves(shapes, some)
-        products += moves @ moves.T
-    return products
-
-
-def _combined(
-    vectors: Float32[np.ndarray, "t k"], shapes: Float32[np.ndarray, "t m 3"]
-) -> Float32[np.ndarray, "k three_m"]:
-    """Displacements from the first frame, combined by each vector."""
-    return np.concatenate([vectors.T @ _moves(shapes, some) for some in _blocks(shapes)], axis=1)
-
-
-def _blocks(shapes: Float32[np.ndarray, "t m 3"]) -> Iterator[slice]:
-    """Some vertices at a time: all displacements would take the memory of the motion once more."""
-    for first in range(0, shapes.shape[1], _BLOCK):
-        yield slice(first, first + _BLOCK)
-
-
-def _moves(shapes: Float32[np.ndarray, "t m 3"], some: slice) -> Float32[np.ndarray, "t three_b"]:
-    return (shapes[:, some] - shapes[0, some]).reshape(len(shapes), -1)
-
-
 def _errors(
-    shapes: Float32[np.ndarray, "t m 3"],
+    moves: Float32[np.ndarray, "t three_m"],
     vectors: Float32[np.ndarray, "t k"],
     targets: Float32[np.ndarray, "k three_m"],
     count: int,
-) -> Float[np.ndarray, "t 2"]:
-    """Mean and largest distance of vertices in every frame, with ``count`` targets."""
-    weights = vectors[:, :count] - vectors[:1, :count]
-    errors = np.empty((len(shapes), 2))
-    for each, shape, weight in zip(errors, shapes, weights, strict=True):
-        left = shape - shapes[0] - (weight @ targets[:count]).reshape(-1, 3)
-        lengths = np.linalg.norm(left, axis=1)
-        each[:] = lengths.mean(), lengths.max()
-    return errors
+) -> Float32[np.ndarray, "t m"]:
+    """Distance of each vertex in every frame, with ``count`` targets."""
+    left = moves - (vectors[:, :count] - vectors[:1, :count]) @ targets[:count]
+    return np.linalg.norm(left.reshape(len(moves), -1, 3), axis=2)

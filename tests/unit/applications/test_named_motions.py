@@ -8,9 +8,8 @@ from fitter.applications.motion import (
     sliding_m,
     sole_vertices,
 )
-from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, STANDARD_GRAVITY, least_jerk
+from fitter.applications.named_motions import NAMED_MOTIONS, least_jerk
 from fitter.applications.poses import beyond_limits
-from fitter.numerics.rotations import rotation_matrices
 from tests.unit.applications.bodies import packaged
 
 GENDERS = ("female", "male")
@@ -97,19 +96,3 @@ def test_who_waves_has_the_right_hand_beside_the_head_and_moves_it_to_and_fro():
     assert np.ptp(swinging[:, 0]) > 0.2
     turns = np.diff(np.sign(np.diff(swinging[:, 0])))
     assert np.count_nonzero(turns) >= 5
-
-
-def test_who_turns_goes_once_round_to_the_left():
-    facing = rotation_matrices(motion_of(packaged("male"), "turn").poses[:, 0])[:, :, 2]
-    angles = np.unwrap(np.arctan2(facing[:, 0], facing[:, 2]))
-    assert (np.diff(angles) > -1e-9).all()
-    assert angles[-1] == pytest.approx(2.0 * np.pi, abs=0.05)
-
-
-def test_jumps_are_falls():
-    motion = motion_of(packaged("male"), "jumping_jack")
-    highest = STANDARD_GRAVITY * JUMP_S**2 / 8.0
-    assert motion.lifts_m.max() == pytest.approx(highest, rel=0.05)
-    fall = np.diff(motion.lifts_m, 2) / motion.frame_time_s**2
-    in_air = (motion.lifts_m[:-2] > 0) & (motion.lifts_m[1:-1] > 0) & (motion.lifts_m[2:] > 0)
-    np.testing.assert_allclose(fall[in_air], -STANDARD_GRAVITY, rtol=1e-6)

@@ -10,7 +10,7 @@ export const products = {
     print: { label: "Print", make: "Make the page", help: "One page to read, print and send: the body, the measurements and how sure they are." },
     size: { label: "Clothing size", make: "Find the size", help: "The size to take from a shop’s chart, and how likely each size fits." },
     pose: { label: "Other pose", make: "Make the pose", help: "The same body in another pose, to turn and to save." },
-    animation: { label: "Animation", make: "Make the animation", help: "The body walks, waves, turns, squats or jumps, or moves as a motion file (BVH) says." },
+    animation: { label: "Animation", make: "Make the animation", help: "The body walks, waves or squats, or moves as a motion file (BVH) says." },
     texture: { label: "Texture", make: "Make the texture", help: "The picture as the body’s skin. What the picture does not show is filled in." },
     caricature: { label: "Caricature", make: "Make the caricature", help: "What is special about this body, exaggerated." },
     composition: { label: "Body fat", make: "Estimate it", help: "Body fat, lean mass and the like, by formulas from the literature." },
@@ -46,7 +46,7 @@ export const products = {
     moves: (file: string) => `It moves as ${file} says.`,
     files: "Or by a file, with joints named as by many programs: CMU, Mixamo, Biovision, SMPL, Unreal and others.",
     motion: "Motion",
-    motions: { walk: "Walk", wave: "Wave", turn: "Turn round", squat: "Squat", jumping_jack: "Jumping jacks" },
+    motions: { walk: "Walk", wave: "Wave", squat: "Squat" },
   },
   texture: {
     turned: "The textured body",

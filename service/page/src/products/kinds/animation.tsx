@@ -12,7 +12,7 @@ interface AnimationWishes {
 }
 
 const words = messages.products.animation;
-const MOTIONS: readonly NamedMotion[] = ["walk", "wave", "turn", "squat", "jumping_jack"];
+const MOTIONS: readonly NamedMotion[] = ["walk", "wave", "squat"];
 
 export const FIRST_ANIMATION: AnimationWishes = { named: "walk", motion: null };
 
