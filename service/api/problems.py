@@ -109,7 +109,7 @@ def retry_header(reason: Problem) -> dict[str, str]:
 
 
 def install_problem_handlers(app: FastAPI) -> None:
-    """Make every exception a problem."""
+    """Make exceptions of resources problems; :mod:`service.api.observation` does so with faults."""
     app.add_exception_handler(ProblemError, _on_problem)
     app.add_exception_handler(RefusedError, _on_refusal)
     app.add_exception_handler(RequestValidationError, _on_validation)
@@ -117,7 +117,6 @@ def install_problem_handlers(app: FastAPI) -> None:
     app.add_exception_handler(EngineUnavailableError, _on_unavailable)
     app.add_exception_handler(BlobsUnavailableError, _on_no_storage)
     app.add_exception_handler(JobExpiredError, _on_expired)
-    app.add_exception_handler(Exception, _on_fault)
 
 
 def _on_problem(request: Request, error: Exception) -> Response:
@@ -206,16 +205,6 @@ def _on_expired(request: Request, error: Exception) -> Response:
         "fit-expired",
         detail=f"The job's time was over at {moment}; its picture and results are erased.",
         remedy="Post the picture again.",
-    )
-    return problem_response(request, reason)
-
-
-def _on_fault(request: Request, error: Exception) -> Response:
-    LOG.error("%s %s failed.", request.method, request.url.path, exc_info=error)
-    reason = problem(
-        "internal-error",
-        detail="An unexpected fault; it has been logged.",
-        remedy="Try again later.",
     )
     return problem_response(request, reason)
 
