@@ -19,7 +19,7 @@ from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from api_schemas.service import Health
 from service.api.context import Context, Parts
 from service.api.problems import ProblemError, documented, problem_error
-from service.jobs.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.jobs.blobs import BlobsUnavailableError, StorageFullError, WatchedBlobs
 from service.jobs.engine import JobEngine
 from service.jobs.records import WorkerStatus
 from service.process.data_folder import Disk
@@ -169,7 +169,7 @@ class Readiness:
             look.answer.set_result(outcome)
 
 
-def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Health]:
+def checks(engine: JobEngine, blobs: WatchedBlobs, disk: Disk) -> Callable[[Look], Health]:
     """Build a look at disk, database, storage and workers."""
 
     def check(look: Look) -> Health:
@@ -195,7 +195,7 @@ def _why_none(workers: Sequence[WorkerStatus]) -> str:
     return "No worker can begin a job: it is still loading, or its log says what is wrong."
 
 
-def _check_storage(blobs: BlobStore) -> None:
+def _check_storage(blobs: WatchedBlobs) -> None:
     try:
         blobs.check_writable()
     except StorageFullError as error:

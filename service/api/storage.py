@@ -10,7 +10,6 @@ from anyio import CapacityLimiter, fail_after, to_thread
 from service.api.problems import ProblemError, not_found, problem_error
 from service.jobs.blobs import (
     BlobMissingError,
-    BlobStore,
     BlobsUnavailableError,
     StorageFullError,
     WatchedBlobs,
@@ -85,7 +84,7 @@ def storing() -> Iterator[None]:
         raise disk_full() from error
 
 
-def store(blobs: BlobStore, scope: str, content: bytes, media_type: str) -> StoredBlob:
+def store(blobs: WatchedBlobs, scope: str, content: bytes, media_type: str) -> StoredBlob:
     """Store a file."""
     return StoredBlob(digest=blobs.put(scope, content), media_type=media_type)
 
@@ -98,7 +97,7 @@ async def stored_content(blobs: WatchedBlobs, scope: str, blob: StoredBlob) -> b
         raise not_found(what="such file any more") from error
 
 
-def erase_at_once(blobs: BlobStore, scope: str) -> None:
+def erase_at_once(blobs: WatchedBlobs, scope: str) -> None:
     """Erase what was stored for something that was not accepted."""
     # If this fails too, the sweep will do it.
     with contextlib.suppress(BlobsUnavailableError):

@@ -94,7 +94,7 @@ class BlobStore(Protocol):
 
 
 class WatchedBlobs:
-    """A store that is not asked while it is away: whoever would wait is told at once.
+    """A store as the API asks it: not while it is away, so that nobody waits in vain.
 
     It is away while a call waits and nothing was answered for ``SILENT_AFTER_S``, and for
     ``AWAY_S`` after such a call was given up, unless a look finds it back: a ``check_writable`` is
@@ -121,25 +121,13 @@ class WatchedBlobs:
                 message = "it did not answer when it was last asked"
                 raise BlobsUnavailableError(message)
 
-    def prepare(self) -> None:
-        """Create the folder or bucket for the blobs unless it exists."""
-        self._ask(self._blobs.prepare)
-
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope."""
         return self._ask(lambda: self._blobs.put(scope, content))
 
-    def put_all(self, scope: str, contents: Iterable[bytes]) -> list[str]:
-        """Store several at once, and return their names."""
-        return self._ask(lambda: self._blobs.put_all(scope, contents))
-
     def get(self, scope: str, name: str) -> bytes:
         """Return a blob, or raise :class:`BlobMissingError`."""
         return self._ask(lambda: self._blobs.get(scope, name))
-
-    def scopes(self) -> Iterator[str]:
-        """Return the scopes that hold anything, in no order."""
-        return self._ask(self._blobs.scopes)
 
     def erase(self, scope: str) -> None:
         """Remove everything in a scope; erasing nothing is fine."""

@@ -31,7 +31,7 @@ from service.jobs.records import (
     JobRecord,
     WorkerStatus,
 )
-from service.jobs.rows import Endings, job_record, read_durations, read_outcomes
+from service.jobs.rows import Endings, job_record, job_where, read_durations, read_outcomes
 from service.jobs.submit import Submissions
 from service.jobs.sweep import Sweeper, forget_fits, forget_pages, forget_workflows
 from service.jobs.tables import EVENTS, JOBS, TOMBSTONES, WORKERS
@@ -71,12 +71,13 @@ class TenantJobs:
     @available
     def product(self, fit_id: str, product: str) -> JobRecord | None:
         """Return a product of a fit, or None if there is none."""
-        query = sa.select(JOBS).where(
-            JOBS.c.parent_id == fit_id, JOBS.c.product == product, JOBS.c.tenant == self._tenant
+        which = (
+            JOBS.c.parent_id == fit_id,
+            JOBS.c.product == product,
+            JOBS.c.tenant == self._tenant,
         )
         with self._database.connect() as connection:
-            row = connection.execute(query).mappings().one_or_none()
-        return None if row is None else job_record(row)
+            return job_where(connection, *which)
 
     @available
     def jobs(
@@ -184,9 +185,8 @@ class TenantJobs:
         return (JOBS.c.id == job_id, *self._ours())
 
     def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
-        row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
-        if row is not None:
-            record = job_record(row)
+        record = job_where(connection, *self._own(job_id))
+        if record is not None:
             if record.expires_at is not None and record.expires_at <= time.time():
                 raise JobExpiredError(record.expires_at)
             return record

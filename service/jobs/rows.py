@@ -67,11 +67,15 @@ def job_record(values: sa.RowMapping) -> JobRecord:
     )
 
 
+def job_where(connection: sa.Connection, *which: sa.ColumnElement[bool]) -> JobRecord | None:
+    """Return the one job of which this holds, or None if there is none."""
+    row = connection.execute(sa.select(JOBS).where(*which)).mappings().one_or_none()
+    return None if row is None else job_record(row)
+
+
 def find_job(connection: sa.Connection, job_id: str) -> JobRecord | None:
     """Return the job, or None if there is none."""
-    query = sa.select(JOBS).where(JOBS.c.id == job_id)
-    row = connection.execute(query).mappings().one_or_none()
-    return None if row is None else job_record(row)
+    return job_where(connection, JOBS.c.id == job_id)
 
 
 def append_event(

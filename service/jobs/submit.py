@@ -26,7 +26,7 @@ from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import problem
 from service.jobs.database import available, read_then_write
 from service.jobs.records import Idempotency, JobRecord, NewJob, Submission, SubmitOutcome
-from service.jobs.rows import INPUTS, append_event, job_record
+from service.jobs.rows import INPUTS, append_event, job_record, job_where
 from service.jobs.sweep import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.jobs.tables import JOBS
 
@@ -132,7 +132,7 @@ class Submissions:
     ) -> Submission | None:
         if idempotency is None:
             return None
-        earlier = _found(
+        earlier = job_where(
             connection,
             JOBS.c.tenant == self._tenant,
             JOBS.c.idempotency_key == idempotency.key,
@@ -144,7 +144,7 @@ class Submissions:
         return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
 
     def _answered_product(self, connection: sa.Connection, fit_id: str, product: str) -> Submission:
-        found = _found(connection, *self._product(fit_id, product))
+        found = job_where(connection, *self._product(fit_id, product))
         if found is not None and not _may_succeed_yet(found):
             return Submission(outcome=SubmitOutcome.REPEATED, job=found)
         refused = self._no_room(connection)
@@ -226,11 +226,6 @@ class Submissions:
             .returning(JOBS)
         )
         return job_record(row.mappings().one())
-
-
-def _found(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> JobRecord | None:
-    row = connection.execute(sa.select(JOBS).where(*those)).mappings().one_or_none()
-    return None if row is None else job_record(row)
 
 
 def _may_succeed_yet(product: JobRecord) -> bool:
