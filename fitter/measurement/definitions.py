@@ -13,7 +13,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, Final
 
-from fitter.measurement.skin_points import SKIN_PREFIX, load_skin_points
+from fitter.measurement.skin_points import SKIN_PREFIX, load_skin_points, triple
 
 JOINT_PREFIX = "joint:"
 DEFINITIONS_PATH = Path(__file__).with_name("definitions.json")
@@ -246,7 +246,7 @@ def _definition(
             above = tuple(entry.get("above", SOLES))
             return Height(about=about, point=tuple(entry["point"]), above=above)
         case "contour":
-            sides = tuple(side and tuple(map(float, side)) for side in entry["sides"])
+            sides = tuple(side and triple(side) for side in entry["sides"])
             parts = tuple(entry["parts"])
             return Contour(about=about, path=_path(entry), sides=sides, parts=parts)
         case "back_contour":

@@ -54,6 +54,12 @@ class SkinPoint:
         return self.origin + (self.level or ())
 
 
+def triple(values: Sequence[float]) -> tuple[float, float, float]:
+    """Three numbers of a file, as floats."""
+    x, y, z = map(float, values)
+    return x, y, z
+
+
 @cache
 def load_skin_points() -> Mapping[str, SkinPoint]:
     """The file's points by name; the file is ours, and tests check it."""
@@ -64,7 +70,7 @@ def load_skin_points() -> Mapping[str, SkinPoint]:
             meaning=entry["meaning"],
             origin=tuple(entry["from"]),
             level=tuple(entry["level"]) if "level" in entry else None,
-            direction=tuple(map(float, entry["direction"])),
+            direction=triple(entry["direction"]),
         )
         for name, entry in points.items()
     }

@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.jobs import Fit, WebhookTarget
-from api_schemas.problems import problem
+from api_schemas.problems import Problem, problem
 from api_schemas.questions import BodyRequest
 from service.api.context import ApiContext, Context
 from service.api.events import Prefer, wait_for_end
@@ -294,24 +294,24 @@ def _options(checked: CheckedSubmission) -> bytes:
     return checked.request.model_dump_json().encode()
 
 
-_REFUSALS: Final[Mapping[SubmitOutcome, Mapping[str, str]]] = {
-    SubmitOutcome.QUEUE_FULL: {
-        "slug": "queue-full",
-        "detail": "The queue of waiting jobs is full.",
-        "remedy": "Try again after the time in Retry-After.",
-    },
-    SubmitOutcome.TENANT_FULL: {
-        "slug": "too-many-requests",
-        "code": "too-many-waiting",
-        "detail": "Too many of your jobs are waiting already.",
-        "remedy": "Try again when some of them have ended.",
-    },
-    SubmitOutcome.LOST: {
-        "slug": "not-ready",
-        "code": "submission-lost",
-        "detail": "The upload took too long and was given up.",
-        "remedy": "Post it again.",
-    },
+_REFUSALS: Final[Mapping[SubmitOutcome, Problem]] = {
+    SubmitOutcome.QUEUE_FULL: problem(
+        "queue-full",
+        detail="The queue of waiting jobs is full.",
+        remedy="Try again after the time in Retry-After.",
+    ),
+    SubmitOutcome.TENANT_FULL: problem(
+        "too-many-requests",
+        code="too-many-waiting",
+        detail="Too many of your jobs are waiting already.",
+        remedy="Try again when some of them have ended.",
+    ),
+    SubmitOutcome.LOST: problem(
+        "not-ready",
+        code="submission-lost",
+        detail="The upload took too long and was given up.",
+        remedy="Post it again.",
+    ),
 }
 
 
@@ -324,7 +324,7 @@ def accepted_job(submission: Submission) -> JobRecord:
         If none was.
     """
     if submission.outcome in _REFUSALS:
-        raise ProblemError(problem(**_REFUSALS[submission.outcome]))
+        raise ProblemError(_REFUSALS[submission.outcome])
     if submission.outcome is SubmitOutcome.FIT_GONE:
         raise not_found(what="such fit any more")
     if submission.job is None:

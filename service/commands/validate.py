@@ -43,7 +43,7 @@ class Row(BaseModel):
     """
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Positive]
+    __pydantic_extra__: dict[str, Positive]  # pyright: ignore[reportIncompatibleVariableOverride]
 
     person: str
     gender: Gender

@@ -207,7 +207,9 @@ def _initial_pose(
 
 def _points_proposal(found: Proposal) -> wire.PointsProposal:
     """Translate a proposal."""
-    points = {cast("PointName", name): _point(point) for name, point in found.points.items()}
+    points: dict[PointName, Point] = {
+        cast("PointName", name): _point(point) for name, point in found.points.items()
+    }
     checked = found.checked
     return wire.PointsProposal(
         image_size=wire.ImageSize(width=found.width, height=found.height),

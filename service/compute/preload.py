@@ -48,7 +48,7 @@ def _keep_no_more() -> None:
     """Have Numba keep in memory alone what a child compiles."""
     from numba.core.caching import Cache
 
-    Cache.save_overload = lambda *_: None
+    Cache.save_overload = lambda *_: None  # pyright: ignore[reportAttributeAccessIssue]
 
 
 if VARIABLE not in os.environ:

@@ -9,6 +9,7 @@ the other.
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
+from typing import Any
 
 import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
@@ -184,7 +185,8 @@ class TenantImages:
                 return KeptImage(record=earlier, is_new=False)
             if not take_out(connection, image.scope):
                 return None
-            values = asdict(image) | {"created_at": now, "expires_at": now + self._retention_s}
+            values: dict[str, Any] = asdict(image)
+            values |= {"created_at": now, "expires_at": now + self._retention_s}
             connection.execute(sa.insert(IMAGES).values(tenant=self._tenant, **values))
         return KeptImage(record=ImageRecord(**values), is_new=True)
 

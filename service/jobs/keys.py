@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Final
+from typing import Any, Final
 
 import sqlalchemy as sa
 from sqlalchemy.exc import InternalError
@@ -95,7 +95,7 @@ class KeyRing:
         query = sa.select(API_KEYS).order_by(API_KEYS.c.created_at)
         with self._database.connect() as connection:
             rows = connection.execute(query).mappings().all()
-        return [ApiKey(**(dict(row) | {"role": Role(row["role"])})) for row in rows]
+        return [_api_key(row) for row in rows]
 
     @available
     def note_use(self, identity: str, *, at: float, unless_since: float) -> None:
@@ -117,3 +117,8 @@ class KeyRing:
 def hash_key(key: str) -> str:
     """Return what is stored in place of a key."""
     return hashlib.sha256(key.encode()).hexdigest()
+
+
+def _api_key(row: sa.RowMapping) -> ApiKey:
+    values: dict[str, Any] = {**row, "role": Role(row["role"])}
+    return ApiKey(**values)

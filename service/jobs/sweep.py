@@ -102,7 +102,9 @@ def take_out(connection: sa.Connection, scope: str) -> bool:
     return connection.execute(sa.delete(ERASURES).where(ERASURES.c.scope == scope)).rowcount > 0
 
 
-def forget_fits(connection: sa.Connection, *which: sa.ColumnElement[bool]) -> Sequence[sa.Row[Any]]:
+def forget_fits(
+    connection: sa.Connection, *which: sa.ColumnElement[bool]
+) -> Sequence[sa.Row[*tuple[Any, ...]]]:
     """Delete fits and their products, and list the fits' scopes, in which all their blobs are.
 
     Returns id, parent, tenant and expiry of all that was deleted.

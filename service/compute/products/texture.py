@@ -18,7 +18,11 @@ def make(fit: FinishedFit, options: TextureOptions, report: Report) -> Made[Text
     shares = {"seen_share": laid.seen_share, "mirrored_share": laid.mirrored_share}
     return Made(
         result=TextureResult(
-            colours=options.colours, size=options.size, scale=laid.scale, **shares
+            colours=options.colours,
+            size=options.size,
+            scale=laid.scale,
+            seen_share=laid.seen_share,
+            mirrored_share=laid.mirrored_share,
         ),
         files={
             "body_textured.glb": textured_glb(
