@@ -237,7 +237,7 @@ def _row(title: str, figures: ErrorFigures, nulls: Sequence[list[list[float]] | 
         _shown(figures.half_width),
         _shown(figures.repeatability),
         _shown(figures.tape_error),
-        *(_shown(each and mean_absolute(each)) for each in nulls),
+        *(_shown(mean_absolute(each) if each else None) for each in nulls),
     ]
     return f"| {' | '.join(cells)} |"
 
