@@ -35,6 +35,13 @@ THING_M: Final = 0.5
 LEAST_SPREAD, DEVIATIONS = 0.03, 2.5
 """A thing's colours: so many standard deviations about the mean, and the least deviation."""
 
+APART_M: Final = 0.25
+"""From what sticks out, the rest of the person begins so far away: past a thing before them."""
+
+OWN_SHARE: Final = 0.5
+"""Of the rest of the person that has the colours of what sticks out, from which on it is theirs.
+Bellies beyond the model's have 0.65 and more."""
+
 SURE_CONFIDENCE: Final = 0.5
 """Where the outline counts for less anyway, at hair and hands, nothing is concluded from it."""
 
@@ -86,6 +93,33 @@ def off_the_body(
     return _without_speckle(spilt, least_px), _without_speckle(missed, least_px)
 
 
+def outgrown_m(
+    silhouette: SilhouetteEvidence, rendering: Rendering, where: Mask, display: Image
+) -> float:
+    """Distance by which the person's own outline lies off a body, metres; 0 where it does not.
+
+    An outline beyond the model is no evidence of a thing before the person: unusual people have one
+    too, such as a pregnant woman who is seen from the side. A thing has colours of its own; what
+    has those of the rest of the person belongs to them.
+
+    Parameters
+    ----------
+    silhouette, rendering, display
+        As in :func:`doubtful_outline`.
+    where
+        (h, w) what is looked at.
+    """
+    spilt, _ = off_the_body(silhouette, rendering, where)
+    if not spilt.any():
+        return 0.0
+    pixels_per_metre = scale_of(rendering)
+    apart = _distance(~spilt) > APART_M * pixels_per_metre
+    rest = silhouette.mask & rendering.silhouette & apart
+    if not rest.any() or np.mean(_alike(spilt, display)[rest]) < OWN_SHARE:
+        return 0.0
+    return float(_distance(~rendering.silhouette)[spilt].max()) / pixels_per_metre
+
+
 def scale_of(rendering: Rendering) -> float:
     """Pixels per metre at the body's distance."""
     return rendering.camera.focal_length_px / float(rendering.vertices[:, 2].mean())
@@ -96,12 +130,17 @@ def _thing(spilt: Mask, person: Mask, near: Mask, display: Image) -> Mask:
 
     The region alone where that goes on beyond what is near: then it has the person's colours.
     """
-    colours = display[spilt]
-    spread = np.maximum(colours.std(axis=0), LEAST_SPREAD)
-    alike = (np.abs(display - colours.mean(axis=0)) < DEVIATIONS * spread).all(axis=2)
-    _, labels = cv2.connectedComponents((spilt | (alike & person)).astype(np.uint8), connectivity=4)
+    alike = _alike(spilt, display) & person
+    _, labels = cv2.connectedComponents((spilt | alike).astype(np.uint8), connectivity=4)
     grown = np.isin(labels, np.unique(labels[spilt]))
     return grown if near[grown].all() else spilt
+
+
+def _alike(spilt: Mask, display: Image) -> Mask:
+    """Pixels with a region's colours."""
+    colours = display[spilt]
+    spread = np.maximum(colours.std(axis=0), LEAST_SPREAD)
+    return (np.abs(display - colours.mean(axis=0)) < DEVIATIONS * spread).all(axis=2)
 
 
 def _distance(region: Mask) -> GreyImage:

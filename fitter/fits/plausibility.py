@@ -10,8 +10,10 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from fitter.arrays import Mask
 from fitter.energies.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.energies.objective import Candidate, Objective
+from fitter.evidence.doubtful_outline import outgrown_m
 from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
 from fitter.optimizer.search import with_lines_about
@@ -40,6 +42,8 @@ class Plausibility:
         Share of the body's outline along which the colours of the picture change clearly.
     beyond
         Area observed farther than :data:`BEYOND_M` from the body, over the body's own.
+    outgrown_m
+        Distance by which the person's own trunk or hips lie off the body, metres.
     click_deviations
         Root mean square distance of the seen points from the body's own, standard deviations.
     strain
@@ -53,6 +57,7 @@ class Plausibility:
     overlap: float
     boundary: float
     beyond: float
+    outgrown_m: float
     click_deviations: float
     strain: float
     clothed: bool
@@ -65,16 +70,21 @@ def plausibility(
     candidate: Candidate,
     overlap: float,
     *,
+    trunk: Mask,
     shape_nats: float,
 ) -> Plausibility:
     """Compare the body at the end of a search with the evidence of its objective.
 
-    ``shape_nats`` is what the shape costs under its prior.
+    ``trunk`` (h, w) is nearest to trunk and hips; ``shape_nats`` is what the shape costs under its
+    prior.
     """
     return Plausibility(
         overlap=overlap,
         boundary=_clear_boundary(observation, objective, candidate),
         beyond=_beyond(objective, candidate),
+        outgrown_m=outgrown_m(
+            objective.evidence.silhouette, candidate.rendering, trunk, observation.display
+        ),
         click_deviations=_click_deviations(objective, candidate),
         strain=candidate.energies["pose_prior"] + shape_nats,
         clothed=objective.evidence.clothes is not None,

@@ -4,14 +4,16 @@ import pytest
 
 from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
+from fitter.request import FitRequest, Person, View
 from fitter.result import FitResult
-from fitter.vocabulary.choices import Cues, SegmentationKind
+from fitter.vocabulary.choices import Cues, Gender, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Outcome, Severity, Verdict
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.nonsense import DONORS, nonsense
 from tests.evaluation.suite import fit_request
 from tests.one_picture import changed
+from tests.shared_data import SHARED_DATA, needs_shared
 
 MADE = nonsense(Cues.SE)
 
@@ -73,3 +75,36 @@ def test_the_people_whose_points_these_are_get_theirs(name):
     result = fit(request)
     assert result.found.is_plausible
     assert len(result.measurements) > 10
+
+
+BELLIES = SHARED_DATA / "cases" / "belly_front_and_side"
+
+
+def front_and_side(name: str) -> FitResult:
+    views = tuple(
+        View(
+            image=(BELLIES / f"{name}_{kind.value[0]}.jpg").read_bytes(),
+            clicks={},
+            kind=kind,
+            complete_clicks=True,
+        )
+        for kind in (ViewKind.FRONT, ViewKind.SIDE)
+    )
+    return fit(FitRequest(person=Person(gender=Gender.FEMALE, height_m=1.68), views=views))
+
+
+@pytest.mark.slow
+@needs_shared(BELLIES)
+def test_bellies_grow_by_the_tape_or_are_withheld():
+    found = [front_and_side(name) for name in ("preg0", "preg6", "preg_round9")]
+    navels = [
+        next(each.value for each in result.measurements if each.name == "waist_girth_navel")
+        for result in found
+    ]
+    assert navels == pytest.approx([80.6, 88.8, 93.9], abs=3.0)
+    for name in ("preg12", "preg_round12", "preg_round15", "preg18"):
+        result = front_and_side(name)
+        assert result.measurements == ()
+        codes = {each.code for view in result.views for each in view.found.findings}
+        assert Code.CONTRADICTED in codes
+        assert Code.COVERED not in codes

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.energies.edges import EdgeCostMap
-from fitter.evidence.doubtful_outline import AROUND_M, OFF_M, THING_M, doubtful_outline
+from fitter.evidence.doubtful_outline import AROUND_M, OFF_M, THING_M, doubtful_outline, outgrown_m
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, SKIN, WALL, WIDTH, boxes
 
@@ -93,3 +93,24 @@ def test_no_outline_and_no_edge_counts_where_there_is_doubt():
     np.testing.assert_array_equal(silhouette.confidence, np.where(region, 0.0, 1.0))
     edges = EdgeCostMap(cost=np.full((HEIGHT, WIDTH), 0.25, dtype=np.float32)).without(region)
     np.testing.assert_array_equal(edges.cost, np.where(region, np.float32(1.0), np.float32(0.25)))
+
+
+def outgrown(mask: np.ndarray, display: np.ndarray) -> float:
+    everywhere = np.ones_like(mask)
+    return outgrown_m(silhouette_evidence(mask), boxes(BODY)[0], everywhere, display)
+
+
+@pytest.mark.parametrize("reach_px", [12, 20, 30])
+def test_a_belly_beyond_the_model_is_the_persons_own_and_told_by_its_reach(reach_px: int):
+    belly = block(100, 125, 150, 190 + reach_px)
+    found = outgrown(body() | belly, shown(body() | belly))
+    assert found == pytest.approx(reach_px / PIXELS_PER_METRE, abs=1.5 / PIXELS_PER_METRE)
+
+
+def test_a_thing_of_other_colours_is_not_the_persons_own():
+    thing = block(100, 125, 150, 210)
+    assert outgrown(body() | thing, shown(body(), thing)) == 0.0
+
+
+def test_an_outline_near_the_body_outgrows_nothing():
+    assert outgrown(body(), shown(body())) == 0.0

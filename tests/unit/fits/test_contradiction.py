@@ -14,6 +14,7 @@ PERSON = Plausibility(
     overlap=0.94,
     boundary=0.93,
     beyond=0.0,
+    outgrown_m=0.0,
     click_deviations=0.6,
     strain=6.0,
     clothed=False,
@@ -100,3 +101,17 @@ def test_clothes_that_fit_any_outline_are_no_person_s_where_the_detector_finds_n
 
 def test_every_contradicted_verdict_explains_itself():
     assert {*VERDICT_EXPLANATIONS, Verdict.PLAUSIBLE} == set(Verdict)
+
+
+def test_an_unusual_person_is_no_covered_one_and_is_not_measured():
+    found = contradiction(replace(PERSON, outgrown_m=0.085))
+    assert found.verdict is Verdict.IMPLAUSIBLE
+    (finding,) = found.findings
+    assert finding.severity is Severity.BLOCKS
+    assert "8 cm outside" in finding.reason
+    assert "tape" in finding.remedy
+
+
+@pytest.mark.parametrize("reached_m", [0.0, 0.015, 0.035])
+def test_what_the_model_hardly_misses_contradicts_nobody(reached_m):
+    assert contradiction(replace(PERSON, outgrown_m=reached_m)).verdict is Verdict.PLAUSIBLE

@@ -7,7 +7,7 @@ import pytest
 
 from fitter.capture.finding import Code, Finding
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.verdict import LEAST_OFF_M2, obstruction
+from fitter.fits.verdict import LEAST_OFF_M2, nearest_parts, obstruction
 from fitter.vocabulary.outcomes import Severity
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, WIDTH, boxes
 
@@ -39,8 +39,7 @@ def told(
     found = obstruction(
         silhouette_evidence(mask).doubting(doubted),
         RENDERING,
-        part_of_triangle(arms=arms),
-        PART_NAMES,
+        nearest_parts(RENDERING, part_of_triangle(arms=arms), PART_NAMES),
         scale=scale,
     )
     assert len(found) <= 1
