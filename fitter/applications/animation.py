@@ -46,6 +46,9 @@ FILM_DEGREES = 40.0
 
 _QUALITY = 70
 
+LOST_WAY_M = 0.1
+"""Ends of a file's way and of the body's that are so far apart are told."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ChosenMotion:
@@ -82,6 +85,8 @@ class Animation:
         How far soles slide on the ground from frame to frame, mean.
     travelled_m
         From the first place to the last, along the ground.
+    warnings
+        What was left out of the motion or is in doubt.
     """
 
     files: Mapping[str, bytes]
@@ -94,6 +99,7 @@ class Animation:
     skin_mean_error_mm: float
     sliding_mm: float
     travelled_m: float
+    warnings: tuple[FitWarning, ...]
 
 
 def motion_of_clip(
@@ -176,12 +182,12 @@ def _cut_warnings(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarn
 def animate(
     person: FittedPerson,
     evaluator: ScapeEvaluator,
-    motion: Motion,
+    chosen: ChosenMotion,
     *,
     texture: BodyTexture | None = None,
 ) -> Animation:
     """Set a fitted person in motion, feet on the ground; a texture is in both GLB files."""
-    model, shape = evaluator.model, person.body.shape
+    model, shape, motion = evaluator.model, person.body.shape, chosen.motion
     body = grounded(moving_body(evaluator, shape, motion), model)
     # The film before the large files: while it is made all its pictures are in memory.
     files = {"animation.webp": _film(body, model)}
@@ -217,7 +223,26 @@ def animate(
         skin_mean_error_mm=1e3 * skin.mean_error_m,
         sliding_mm=1e3 * sliding_m(body, model),
         travelled_m=float((way[0] ** 2 + way[2] ** 2) ** 0.5),
+        warnings=(*chosen.warnings, *way_warnings(chosen, body)),
     )
+
+
+def way_warnings(chosen: ChosenMotion, body: MovingBody) -> tuple[FitWarning, ...]:
+    """A warning where feet that stay on the ground lead elsewhere than the file goes."""
+    if chosen.up is None:
+        return ()
+    ways = [roots[:, [0, 2]] for roots in (chosen.motion.roots, body.roots)]
+    planned, made = (np.linalg.norm(np.diff(way, axis=0), axis=1).sum() for way in ways)
+    ends = [way[-1] - way[0] for way in ways]
+    apart = float(np.linalg.norm(ends[1] - ends[0]))
+    if apart < LOST_WAY_M:
+        return ()
+    message = (
+        "Feet that touch the ground stay where they are, which leads elsewhere than the file: its "
+        f"way is {planned:.2f} m long and the body's {made:.2f} m, and they end {apart:.2f} m "
+        "apart. The file's own feet slide, or its hips stay on the spot."
+    )
+    return (FitWarning(code="way-differs", message=message),)
 
 
 def _film(body: MovingBody, model: BodyModel) -> bytes:

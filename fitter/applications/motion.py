@@ -4,7 +4,8 @@ Another skeleton's root is right only about: proportions differ, and scaling by 
 centimetres. Two rules mend it. *Height*: the lowest vertex of every frame is at y = 0, or at the
 lift of the source where that has left the ground. *Place*: between two frames the root moves so
 that what touches the ground of the soles stands still, as in rolling without slip; only where
-nothing touches it, it moves as the source's.
+nothing touches it, it moves as the source's. Where that leads elsewhere than the source goes, but
+slowly, the difference is spread over all frames, and feet slide by it.
 """
 
 from collections.abc import Callable, Mapping
@@ -169,6 +170,10 @@ SOLE_HEIGHT_M = 0.03
 SOURCE_WEIGHT = 0.02
 """Of the source's own motion, beside vertices of weight up to one each."""
 
+SLOWEST_M_PER_S = 0.05
+"""At which feet may slide to keep the source's way: 1.7 mm a frame of 30 a second. A recorded walk
+of 4.7 m, which ended 0.11 m away, needs 0.013."""
+
 
 def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
     """The same bodies with their roots moved."""
@@ -184,6 +189,9 @@ def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
     steps += SOURCE_WEIGHT * np.diff(roots[:, [0, 2]], axis=0)
     steps /= (weights.sum(axis=1) + SOURCE_WEIGHT)[:, None]
     roots[1:, [0, 2]] = roots[0, [0, 2]] + np.cumsum(steps, axis=0)
+    lost = (body.roots - roots)[-1] * [1.0, 0.0, 1.0]
+    if np.linalg.norm(lost) <= SLOWEST_M_PER_S * len(roots) * body.motion.frame_time_s:
+        roots += np.linspace(0.0, 1.0, len(roots))[:, None] * lost
     return replace(body, roots=roots)
 
 

@@ -24,7 +24,7 @@ def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[An
     report(0.1)
     texture = texture_for(options.colours, fit)
     report(0.2)
-    made = animate(person, evaluator, chosen.motion, texture=texture)
+    made = animate(person, evaluator, chosen, texture=texture)
     return Made(
         result=AnimationResult(
             colours=BodyColours.PLAIN if texture is None else options.colours,
@@ -41,7 +41,7 @@ def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[An
             sliding_mm=made.sliding_mm,
             travelled_m=made.travelled_m,
             warnings=tuple(
-                FitWarning(code=each.code, message=each.message) for each in chosen.warnings
+                FitWarning(code=each.code, message=each.message) for each in made.warnings
             ),
         ),
         files=dict(made.files) | texture_files(texture),

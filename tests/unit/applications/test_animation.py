@@ -1,6 +1,7 @@
 import io
 import itertools
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,11 +11,20 @@ from scipy.spatial.transform import Rotation
 from fitter.applications.animated_glb import morphed_glb, quaternions, skin_of, skinned_glb
 from fitter.applications.animation import (
     MOST_FRAMES,
+    ChosenMotion,
     animate,
     motion_of_clip,
     motion_of_name,
+    way_warnings,
 )
-from fitter.applications.motion import grounded, motion_of_cycle, moving_body, unturned
+from fitter.applications.motion import (
+    SLOWEST_M_PER_S,
+    grounded,
+    motion_of_cycle,
+    moving_body,
+    sliding_m,
+    unturned,
+)
 from fitter.applications.motion_file import read_motion
 from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose
@@ -244,6 +254,16 @@ def test_a_walk_that_is_too_long_is_cut_and_says_so(body):
     assert " of 20." in warning.message or " of 19.9" in warning.message
 
 
+def walked(body, roots=None):
+    """One stride, as of a file that says where its hips are if these are given."""
+    stride = stride_of(body.rig)
+    motion = motion_of_cycle(stride, body.rig, frames=stride.frames)
+    if roots is not None:
+        motion = replace(motion, roots=roots)
+    up = None if roots is None else "y"
+    return ChosenMotion(motion=motion, source="a stride", up=up, warnings=())
+
+
 @pytest.fixture(scope="module")
 def animation(body):
     person = FittedPerson(
@@ -257,9 +277,35 @@ def animation(body):
         reflectance=reflectance_of(body.model),
         albedo_rgb=None,
     )
-    stride = stride_of(body.rig)
-    motion = motion_of_cycle(stride, body.rig, frames=stride.frames)
-    return animate(person, body.evaluator, motion)
+    return animate(person, body.evaluator, walked(body))
+
+
+def test_a_file_that_goes_elsewhere_than_its_feet_is_told_with_both_ways(body):
+    on_the_spot = walked(body).motion.roots
+    made = grounded(moving_body(body.evaluator, body.shape, walked(body).motion), body.model)
+    to_and_fro = 0.4 * np.sin(np.linspace(0.0, np.pi, len(on_the_spot)))[:, None] * [1, 0, 0]
+    assert way_warnings(walked(body), made) == ()
+    assert way_warnings(walked(body, made.roots), made) == ()
+    assert way_warnings(walked(body, made.roots * [1.0, 1.0, 0.95]), made) == ()
+    for roots, length in ((on_the_spot, "0.00"), (to_and_fro, "0.80")):
+        (warning,) = way_warnings(walked(body, roots), made)
+        apart = np.linalg.norm(made.roots[-1] - made.roots[0])
+        assert warning.code == "way-differs"
+        assert f"its way is {length} m" in warning.message
+        assert f"they end {apart:.2f} m apart" in warning.message
+
+
+def test_the_way_of_a_file_is_kept_where_feet_need_to_slide_but_slowly(body):
+    motion = walked(body).motion
+    by_its_feet = grounded(moving_body(body.evaluator, body.shape, motion), body.model)
+    planned = by_its_feet.roots * [1.0, 1.0, 0.97]
+    moving = moving_body(body.evaluator, body.shape, replace(motion, roots=planned))
+    made = grounded(moving, body.model)
+    ends = [each[-1] - each[0] for each in (made.roots, planned, by_its_feet.roots)]
+    np.testing.assert_allclose(ends[0][[0, 2]], ends[1][[0, 2]], atol=1e-9)
+    assert np.linalg.norm(ends[1] - ends[2]) > 0.03
+    slower = SLOWEST_M_PER_S * motion.frame_time_s
+    assert sliding_m(made, body.model) < sliding_m(by_its_feet, body.model) + slower
 
 
 def test_an_animation_states_in_its_files_what_it_reports(animation):

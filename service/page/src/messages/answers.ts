@@ -55,6 +55,7 @@ export const answers = {
   warnings: {
     "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
     "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
+    "way-differs": "The body ends elsewhere than the motion file does: its feet stay where they touch the ground.",
     "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
     "clothes-not-loose":
       "This looks like underwear or swimwear. If nothing loose covers the body, say that the clothes are close-fitting: girths may be several centimetres too small otherwise.",
