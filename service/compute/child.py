@@ -31,7 +31,6 @@ from service.compute.messages import (
     send,
 )
 from service.compute.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
-from service.jobs.records import Report
 from service.process.confinement import confine
 from service.process.logs import configure_logging, log_context
 
@@ -60,7 +59,12 @@ def work(setup: ChildSetup, connection: Connection) -> None:
 def _work_on(given: Received, setup: ChildSetup, connection: Connection) -> None:
     assert isinstance(given.message, TaskMessage)
     with log_context(**given.message.log_context):
-        message, parts = _done(given.message.task, given.parts, setup, _telling(connection))
+        message, parts = _done(
+            given.message.task,
+            given.parts,
+            setup,
+            lambda report: send(connection, ProgressMessage(report=report)),
+        )
         send(connection, message, parts.values())
 
 
@@ -76,23 +80,6 @@ def _done(task: str, given: Parts, setup: ChildSetup, observe: Observe) -> tuple
     except Exception:
         LOG.exception("The task %s failed.", task)
         return FaultMessage(), nothing
-
-
-def _telling(connection: Connection) -> Observe:
-    """Tell the owner of progress."""
-
-    def observe(report: Report) -> None:
-        send(
-            connection,
-            ProgressMessage(
-                stage=report.stage,
-                progress=report.progress,
-                energies=report.energies,
-                view=report.view,
-            ),
-        )
-
-    return observe
 
 
 def _follow_owner(connection: Connection) -> SimpleQueue[Received]:

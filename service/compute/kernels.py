@@ -1,9 +1,9 @@
 """Compiled kernels: where Numba keeps them, and one fit of the sample that compiles them.
 
-Numba keeps what it compiles beside the code. ``python -m service.compute.kernels`` does it once an
-installation; a fork server does what is missing before the first fork, so that none of its children
-compiles what another has compiled. Where nobody may write beside the code, as in an image, a
-process has a folder with links to what lies there.
+Numba keeps what it compiles beside the code, or in the folder that is named. ``python -m
+service.compute.kernels`` compiles once an installation, and so does a fork server that finds
+nothing. A process that may not write there, as in an image, has a folder with links to what lies
+there.
 """
 
 import hashlib
@@ -12,7 +12,7 @@ import io
 import json
 import logging
 import os
-import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Final
 
 from api_schemas.fit import FitRequest
+from service.process.supervisor import PYTHON
 from service.process.work_folder import make_work_folder
 
 LOG: Final = logging.getLogger(__name__)
@@ -62,27 +63,12 @@ def link_kernels(folder: Path, kept: Path | None = None) -> None:
             link.symlink_to(file)
 
 
-def keep_kernels(folder: Path, kept: Path | None = None) -> None:
-    """Copy what was compiled into a folder of links to where Numba keeps kernels otherwise."""
-    for code, name in _folders():
-        for file in (folder / name).glob(FILES):
-            if not file.is_symlink():
-                try:
-                    _copy(file, code / "__pycache__" if kept is None else kept / name)
-                except OSError as error:
-                    LOG.warning("Kernels cannot be kept; each start compiles them: %s", error)
-                    return
-
-
-def _copy(file: Path, folder: Path) -> None:
-    """Copy it so that it is there as a whole or not at all."""
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    unfinished = folder / f"{file.name}.{os.getpid()}"
-    try:
-        shutil.copyfile(file, unfinished)
-        unfinished.replace(folder / file.name)
-    finally:
-        unfinished.unlink(missing_ok=True)
+def compile_once() -> None:
+    """Have all kernels compiled by another process, unless there are some."""
+    named = os.environ.get(VARIABLE)
+    if not any(Path(named or package()).rglob(FILES)):
+        LOG.info("Kernels are compiled, which takes one to three minutes.")
+        subprocess.run([*PYTHON, "-m", __name__], stdout=subprocess.DEVNULL, check=False)
 
 
 def _forget_kernels(folder: Path) -> None:

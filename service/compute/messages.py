@@ -15,6 +15,7 @@ from pydantic import Field, TypeAdapter
 from api_schemas.base import WireModel
 from api_schemas.problems import Problem
 from service.compute.tasks import Parts
+from service.jobs.records import Report
 
 LARGEST_PART_BYTES: Final = 256 * 1024 * 1024
 """A child that sends more has been taken over by its picture."""
@@ -43,10 +44,7 @@ class ProgressMessage(_Header):
     """The task has made progress."""
 
     kind: Literal["progress"] = "progress"
-    stage: str
-    progress: float
-    energies: dict[str, float]
-    view: int | None = None
+    report: Report
 
 
 class DoneMessage(_Header):

@@ -9,8 +9,8 @@ from typing import Final
 
 from service.compute.kernels import (
     VARIABLE,
+    compile_once,
     import_kernels,
-    keep_kernels,
     link_kernels,
     make_kernels_ready,
     settle_folders,
@@ -57,11 +57,11 @@ if VARIABLE not in os.environ:
 
 # Children load kernels from this folder and cannot write there: others would run what one wrote.
 KEPT: Final = Path(os.environ[VARIABLE]) if os.environ.get(VARIABLE) else None
+compile_once()
 OWN: Final = Path(tempfile.mkdtemp(prefix="kernels-"))
 link_kernels(OWN, KEPT)
 os.environ[VARIABLE] = str(OWN)
-# The folder is gone with the worker: kernels would be compiled, for minutes, that nobody uses.
+# The folder is gone with the worker: kernels would be compiled that nobody uses.
 with ending_with_the_parent():
     _load(Settings())
-    keep_kernels(OWN, KEPT)
     _keep_no_more()

@@ -3,7 +3,7 @@
 import logging
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, ParamSpec, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -187,7 +187,7 @@ class JobRunner:
             if received is not None:
                 if not isinstance(received.message, ProgressMessage):
                     return _ended(received)
-                progress.take(received.message)
+                progress.take(received.message.report)
             directive = progress.store_if_due()
             now = time.monotonic()
             if now >= deadline:
@@ -255,30 +255,20 @@ class ThrottledProgress:
         self._attempt = attempt
         self._due = 0.0
         self._news: tuple[str, int | None] | None = None
-        self._latest: ProgressMessage | None = None
+        self._latest: Report | None = None
 
-    def take(self, message: ProgressMessage) -> None:
+    def take(self, report: Report) -> None:
         """Take a report that came."""
-        news = (message.stage, message.view)
+        news = (report.stage, report.view)
         if news != self._news:
             # A new stage, or the next picture, is news: it does not wait.
-            self._news = news
-            self._due = 0.0
-        self._latest = message
+            self._news, self._due = news, 0.0
+        self._latest = report
 
     def store_if_due(self) -> Directive | None:
         """Store the latest report, if there is one and it is time; then say whether to go on."""
         now = time.monotonic()
         if self._latest is None or now < self._due:
             return None
-        directive = self._attempt.report(
-            Report(
-                stage=self._latest.stage,
-                progress=min(max(self._latest.progress, 0.0), 1.0),
-                energies=self._latest.energies,
-                view=self._latest.view,
-            )
-        )
-        self._latest = None
-        self._due = now + STORED_EVERY_S
-        return directive
+        report, self._latest, self._due = self._latest, None, now + STORED_EVERY_S
+        return self._attempt.report(replace(report, progress=min(max(report.progress, 0.0), 1.0)))

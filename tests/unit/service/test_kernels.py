@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from service.compute import kernels
-from service.compute.kernels import VARIABLE, keep_kernels, link_kernels, settle_folders
+from service.compute.kernels import VARIABLE, link_kernels, settle_folders
 from service.compute.worker import THREAD_LIMITS
 
 REPOSITORY = Path(__file__).parents[3]
@@ -82,25 +82,24 @@ def code(tmp_path, monkeypatch) -> Path:
     return folder
 
 
-def test_what_was_compiled_is_kept_and_what_was_linked_is_left(code, tmp_path):
-    own = tmp_path / "own"
-    link_kernels(own)
-    (linked,) = own.rglob("*.nbi")
-    assert linked.read_text() == "kept"
-    (linked.parent / "_kernels.two.nbi").write_text("new")
-    keep_kernels(own)
-    found = {file.name: file.read_text() for file in code.rglob("*.nbi")}
+def test_kernels_beside_the_code_and_those_in_another_folder_are_linked_to(code, tmp_path):
+    own, kept = tmp_path / "own", tmp_path / "kept"
+    link_kernels(kept)
+    (next(kept.iterdir()) / "_kernels.two.nbi").write_text("new")
+    link_kernels(own, kept)
+    found = {file.name: file.read_text() for file in own.rglob("*.nbi") if file.is_symlink()}
     assert found == {"_kernels.one.nbi": "kept", "_kernels.two.nbi": "new"}
 
 
-def test_where_another_folder_is_kept_nothing_is_written_beside_the_code(code, tmp_path):
-    own, kept = tmp_path / "own", tmp_path / "kept"
-    link_kernels(kept)
-    link_kernels(own, kept)
-    (next(own.iterdir()) / "_kernels.two.nbi").write_text("new")
-    keep_kernels(own, kept)
-    assert {file.name for file in kept.rglob("*.nbi")} == {"_kernels.one.nbi", "_kernels.two.nbi"}
-    assert len([*code.rglob("*.nbi")]) == 1
+def test_kernels_are_compiled_once_where_there_are_none(code, monkeypatch):
+    begun: list[list[str]] = []
+    monkeypatch.setattr(subprocess, "run", lambda command, **_: begun.append(command))
+    monkeypatch.setenv(VARIABLE, "")
+    kernels.compile_once()
+    assert begun == []
+    (code / "render" / "__pycache__" / "_kernels.one.nbi").unlink()
+    kernels.compile_once()
+    assert begun == [[sys.executable, "-P", "-m", "service.compute.kernels"]]
 
 
 def test_folders_are_called_as_numba_calls_them():

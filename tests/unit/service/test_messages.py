@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from service.compute import messages
 from service.compute.messages import DoneMessage, ProgressMessage, TaskMessage, receive, send
+from service.jobs.records import Report
 
 Ends = tuple[Connection, Connection]
 
@@ -30,7 +31,9 @@ def test_a_message_arrives_with_its_parts_by_name(ends: Ends):
 
 
 def test_messages_without_parts_follow_one_another(ends: Ends):
-    report = ProgressMessage(stage="shading", progress=0.5, energies={"total": 1.0}, view=1)
+    report = ProgressMessage(
+        report=Report(stage="shading", progress=0.5, energies={"total": 1.0}, view=1)
+    )
     for message in (report, DoneMessage()):
         send(ends[0], message)
     assert [receive(ends[1]).message for _ in range(2)] == [report, DoneMessage()]
