@@ -6,7 +6,7 @@ secrets.
 
 import ipaddress
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Final
 from urllib.parse import SplitResult, urlsplit
@@ -137,31 +137,29 @@ def _named(folder: Path) -> Path:
     return folder
 
 
-def _with_both_models(folder: Path) -> Path:
-    for name in ("female.npz", "male.npz"):
-        if not (folder / name).is_file():
-            message = f"no {name} in {folder}: train one, or copy the packaged one there"
-            raise ValueError(message)
-    return folder
+def _holding(names: Sequence[str], remedy: str) -> AfterValidator:
+    def checked(folder: Path) -> Path:
+        for name in names:
+            if not (folder / name).is_file():
+                message = f"no {name} in {folder}: {remedy}"
+                raise ValueError(message)
+        return folder
+
+    return AfterValidator(checked)
 
 
+MODEL_FILES: Final = ("female.npz", "male.npz")
 DETECTOR_FILES: Final = tuple(each.name for each in FILES)
 
-
-def _with_both_weights(folder: Path) -> Path:
-    for name in DETECTOR_FILES:
-        if not (folder / name).is_file():
-            message = (
-                f"no {name} in {folder}: copy it there from the package mediapipe 0.10.21, or "
-                "unset it where that is installed"
-            )
-            raise ValueError(message)
-    return folder
-
-
 NamedFolder = Annotated[Path, AfterValidator(_named)]
-ModelFolder = Annotated[Path, AfterValidator(_with_both_models)]
-DetectorFolder = Annotated[Path, AfterValidator(_with_both_weights)]
+ModelFolder = Annotated[Path, _holding(MODEL_FILES, "train one, or copy the packaged one there")]
+DetectorFolder = Annotated[
+    Path,
+    _holding(
+        DETECTOR_FILES,
+        "copy it there from the package mediapipe 0.10.21, or unset it where that is installed",
+    ),
+]
 DatabaseUrl = Annotated[str, AfterValidator(read_database_url)]
 BucketUrl = Annotated[str, _that_passes(check_bucket)]
 WebhookSecret = Annotated[str, _that_passes(secret_key)]

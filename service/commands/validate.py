@@ -103,8 +103,7 @@ def validate(
     file: Path, output: Path, *, models: Path | None = None, pipeline: str = PIPELINE
 ) -> int:
     """Fit every row of a table, write and print the report; return the exit status."""
-    rows = told(lambda: read_table(file))
-    if rows is None:
+    if (rows := told(lambda: read_table(file))) is None:
         return UNUSABLE
     fits: list[_Fit] = []
     for number, row in rows.items():

@@ -36,29 +36,6 @@ class PictureSample:
     request: bytes
 
 
-def load_woman(folder: Path = FOLDER) -> PictureSample:
-    """Read ``woman.jpg`` and ``woman.json``."""
-    return PictureSample(
-        image=(folder / "woman.jpg").read_bytes(), request=(folder / "woman.json").read_bytes()
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ViewsSample:
-    """Pictures of one person, and the request of their fit as JSON text."""
-
-    images: tuple[bytes, ...]
-    request: bytes
-
-
-def load_views_sample(folder: Path = FOLDER) -> ViewsSample:
-    """Read ``front.jpg``, ``side.jpg`` and ``front_and_side.json``."""
-    return ViewsSample(
-        images=tuple((folder / f"{view}.jpg").read_bytes() for view in ("front", "side")),
-        request=(folder / "front_and_side.json").read_bytes(),
-    )
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SubjectSample:
     """Somebody whose body is known, in several poses.

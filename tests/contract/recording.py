@@ -17,7 +17,7 @@ import httpx
 from PIL import Image
 
 import service.api
-from service.demo_data.sample import load_sample, load_views_sample
+from service.demo_data.sample import FOLDER, load_sample
 from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing, Role
 from service.representation.jobs import FITS
@@ -58,16 +58,17 @@ GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 
 def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dict[str, Any]:
     """Ask a service for one of everything."""
     recorder = Recorder(client, receiver)
-    sample, pair = load_sample(), load_views_sample()
+    sample = load_sample()
+    front, side = ((FOLDER / f"{view}.jpg").read_bytes() for view in ("front", "side"))
     person = json.loads(sample.request)
     (seen,) = person.pop("views")
     points = {name: [at["x"], at["y"]] for name, at in seen["points"].items()}
-    image, *views = _images(recorder, sample.image, *pair.images)
+    image, *views = _images(recorder, sample.image, front, side)
     nobody = recorder.ask("", "POST", "/v1/images", files={"image": _empty()}).json()["id"]
     clicked = {"image_id": image, "points": points}
     fit = person | {"views": [clicked]}
     auto = {"gender": "female", "height_m": 1.68, "views": [{"image_id": image}]}
-    asked = json.loads(pair.request)
+    asked = json.loads((FOLDER / "front_and_side.json").read_bytes())
     several = asked | {
         "views": [
             {"view": view["view"], "image_id": each, "points": view["points"]}

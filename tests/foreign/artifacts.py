@@ -14,7 +14,7 @@ from pathlib import Path
 from api_schemas.fit import FitRequest
 from service.compute.pipeline import fit_task, product_task
 from service.compute.tasks import OPTIONS, ChildSetup
-from service.demo_data.sample import load_sample, load_views_sample
+from service.demo_data.sample import FOLDER, load_sample
 from service.jobs.inputs import SentPicture, named_pictures, product_inputs
 from service.submissions.submission import check_submission
 
@@ -60,8 +60,9 @@ def made_in(folder: Path) -> Path:
 
 
 def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
-    sample, pair = load_sample(), load_views_sample()
-    fit = _of_fit(pair.request, *pair.images)
+    sample = load_sample()
+    front, side = ((FOLDER / f"{view}.jpg").read_bytes() for view in ("front", "side"))
+    fit = _of_fit((FOLDER / "front_and_side.json").read_bytes(), front, side)
     yield "fit", fit
     yield from _products(PRODUCTS, fit)
     yield "sample", _of_fit(sample.request, sample.image)

@@ -7,15 +7,14 @@ import pytest
 from PIL import Image
 
 from service.cli import main
-from service.demo_data.sample import load_woman
+from service.demo_data.sample import FOLDER
 
 FIGURES = ("2", "3", "4", "5", "6", "7", "8", "8_ours", "9", "10")
 
 
 def test_every_figure_and_the_table_are_drawn(tmp_path):
-    sample = load_woman()
-    (tmp_path / "painting.jpg").write_bytes(sample.image)
-    (tmp_path / "painting.json").write_bytes(sample.request)
+    (tmp_path / "painting.jpg").write_bytes((FOLDER / "woman.jpg").read_bytes())
+    (tmp_path / "painting.json").write_bytes((FOLDER / "woman.json").read_bytes())
     out = tmp_path / "out"
     painting = ["--painting", str(tmp_path / "painting.jpg"), str(tmp_path / "painting.json")]
     with pytest.raises(SystemExit) as ended:
@@ -31,8 +30,7 @@ def test_every_figure_and_the_table_are_drawn(tmp_path):
 
 
 def test_a_picture_that_cannot_be_used_is_told(tmp_path, capsys):
-    sample = load_woman()
-    (tmp_path / "p.jpg").write_bytes(sample.image)
+    (tmp_path / "p.jpg").write_bytes((FOLDER / "woman.jpg").read_bytes())
     request = {"gender": "female", "views": [{"points": {"nose": [1, 1]}}]}
     (tmp_path / "p.json").write_text(json.dumps(request))
     given = [str(tmp_path / "p.jpg"), str(tmp_path / "p.json")]
