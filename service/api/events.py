@@ -96,7 +96,7 @@ class EventFeed:
             yield has_place
         finally:
             self._followed[owner] -= has_place
-            self._followed += Counter()
+            self._followed += Counter[str]()
 
     async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
         """Return when the job has an event numbered above ``number``, is gone, or time is up.

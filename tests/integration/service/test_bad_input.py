@@ -229,7 +229,9 @@ def test_every_other_error_is_a_problem_too(service: Service, method, path, stat
     checked(service.client.request(method, path), status)
 
 
-@pytest.mark.parametrize(("path", "allowed"), [("/v1/fits", "GET, POST"), (UNKNOWN, "DELETE, GET")])
+@pytest.mark.parametrize(
+    ("path", "allowed"), [("/v1/fits", "GET, HEAD, POST"), (UNKNOWN, "DELETE, GET, HEAD")]
+)
 def test_a_wrong_method_is_told_all_the_right_ones(service: Service, path, allowed):
     assert service.client.put(path).headers["Allow"] == allowed
 
