@@ -17,17 +17,14 @@ from api_schemas.picture import (
 )
 from api_schemas.points import NamedPoint, Point, Points, PointsFormat
 from api_schemas.results import (
-    Assumption,
     BodyResult,
-    Box,
     CameraResult,
-    Finding,
-    FitWarning,
     Measurement,
 )
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, SeenFrom
 from fitter.vocabulary.points import PointName
+from fitter.vocabulary.remarks import Box, Remark
 
 
 class BodyRequest(Person):
@@ -50,7 +47,7 @@ class BodyEstimate(WireModel):
     measurements: tuple[Measurement, ...]
     plausibility: float = Field(ge=0.0, le=1.0)
     body_model: str = Field(description="Checksum of the body model.")
-    warnings: tuple[FitWarning, ...] = ()
+    warnings: tuple[Remark, ...] = ()
 
 
 MAX_SIDE: Final = 100_000
@@ -92,8 +89,8 @@ class InitialPose(WireModel):
     points: dict[str, ImagePoint]
     residual_px: dict[str, float]
     limbs: tuple[LimbFacing, ...]
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 class PointsRequest(Lens):
@@ -123,13 +120,6 @@ class PointsRequest(Lens):
     )
     height_m: HeightM | None = None
     mask: bool = Field(default=False, description="Whether the person's mask is wanted too.")
-
-
-class NotChecked(WireModel):
-    """A check that could not be made, and why."""
-
-    code: str
-    reason: str
 
 
 class PointsProposal(WireModel):
@@ -167,10 +157,10 @@ class PointsProposal(WireModel):
         json_schema_extra={"contentEncoding": "base64", "contentMediaType": "image/png"},
     )
     usable: bool
-    findings: tuple[Finding, ...]
-    not_checked: tuple[NotChecked, ...]
+    findings: tuple[Remark, ...]
+    not_checked: tuple[Remark, ...]
     seen_from: SeenFrom | None
     lean_deg: float | None
     distance_m: float | None
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]

@@ -16,15 +16,12 @@ from fitter.vocabulary.outcomes import (
     FocalLengthSource,
     LimbFacing,
     Outcome,
-    Severity,
     StanceKind,
     Verdict,
 )
-from fitter.vocabulary.points import PointName
+from fitter.vocabulary.remarks import Remark
 
 Vector = tuple[float, float, float]
-Box = tuple[float, float, float, float]
-"""Left, top, right and bottom, pixels of the picture as a browser shows it."""
 
 
 class CameraResult(WireModel):
@@ -106,21 +103,6 @@ class Stage(WireModel):
     measurements: dict[str, float]
 
 
-class Assumption(WireModel):
-    """A physical quantity the caller did not give."""
-
-    quantity: str
-    value: float | str
-    reason: str
-
-
-class FitWarning(WireModel):
-    """Something to look at."""
-
-    code: str
-    message: str
-
-
 class ResultFile(WireModel):
     """A file of the result."""
 
@@ -128,21 +110,6 @@ class ResultFile(WireModel):
     media_type: str
     size: int
     sha256: str
-
-
-class Finding(WireModel):
-    """Something that is wrong with the picture.
-
-    ``reason`` has the figure that was measured, ``remedy`` says what to do; ``points`` and ``box``
-    (left, top, right, bottom) say where it is, if at one place.
-    """
-
-    code: str
-    severity: Severity
-    reason: str
-    remedy: str
-    points: tuple[PointName, ...]
-    box: Box | None
 
 
 class WornRegion(WireModel):
@@ -182,7 +149,7 @@ class ViewResult(WireModel):
     silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
     tilt: TiltResult | None = Field(description="Null where the person says nothing of it.")
     limb_facing: tuple[LimbFacing, ...]
-    findings: tuple[Finding, ...] = Field(
+    findings: tuple[Remark, ...] = Field(
         description=(
             "As of `POST /v1/points`; what `blocks` withholds the measurements, what `harms` "
             "widens those that it harms. Of a fit alone: `contradicted`, no person was measured; "
@@ -192,8 +159,8 @@ class ViewResult(WireModel):
     clothing: tuple[WornRegion, ...] = Field(
         description="Empty where it was said that all clothes are `tight`."
     )
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 class FitResult(WireModel):
@@ -226,8 +193,8 @@ class FitResult(WireModel):
             "these do; below 0.1 a warning names the view that differs most. Null of one picture."
         ),
     )
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
     differences: tuple[str, ...] = Field(description="From the paper, of a fit by its method.")
     stages: tuple[Stage, ...]
     stage_seconds: dict[str, float]

@@ -18,8 +18,6 @@ from .parameters import Light as Light
 from .parameters import Reflectance as Reflectance
 from .person.fitted_person import FittedPerson as FittedPerson
 from .population.body_estimate import BodyEstimate as BodyEstimate
-from .remarks import Assumption as Assumption
-from .remarks import FitWarning as FitWarning
 from .render.camera import Camera as Camera
 from .request import Choices as Choices
 from .request import Click as Click
@@ -32,7 +30,6 @@ from .request import View as View
 from .result import FitResult as FitResult
 from .result import FitStage as FitStage
 from .result import FittedView as FittedView
-from .result import LimbFacing as LimbFacing
 from .result import PictureFit as PictureFit
 from .result import StageBody as StageBody
 from .vocabulary.choices import Clothing as Clothing
@@ -43,11 +40,12 @@ from .vocabulary.choices import LightKind as LightKind
 from .vocabulary.choices import OptimizerKind as OptimizerKind
 from .vocabulary.choices import PaperEnergy as PaperEnergy
 from .vocabulary.choices import ViewKind as ViewKind
+from .vocabulary.outcomes import LimbFacing as LimbFacing
 from .vocabulary.outcomes import Outcome as Outcome
 from .vocabulary.outcomes import Verdict as Verdict
+from .vocabulary.remarks import Remark as Remark
 
 __all__ = [
-    "Assumption",
     "BodyEstimate",
     "BodyParameters",
     "Camera",
@@ -60,7 +58,6 @@ __all__ = [
     "FitRequest",
     "FitResult",
     "FitStage",
-    "FitWarning",
     "FittedPerson",
     "FittedView",
     "FitterError",
@@ -82,6 +79,7 @@ __all__ = [
     "PictureFit",
     "Progress",
     "Reflectance",
+    "Remark",
     "Stage",
     "StageBody",
     "Verdict",

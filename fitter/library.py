@@ -107,7 +107,7 @@ def estimate_body(
     --------
     >>> from fitter import Gender, estimate_body
     >>> estimate = estimate_body(Gender.FEMALE, {"stature": 170.0, "weight": 65.0})
-    >>> heights = {each.measurement.name: each.measurement.value for each in estimate.measurements}
+    >>> heights = {each.name: each.value for each in estimate.measurements}
     >>> round(heights["stature"], 3)
     170.0
     """

@@ -4,17 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fitter.arrays import Image, Mask, Shape, ShapeCovariance, Triangles, Vertices
-from fitter.capture.finding import Finding
 from fitter.measurement.definitions import Measurement
 from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.segmentation.trimap import Trimap
 from fitter.vocabulary.choices import Cues, OptimizerKind, ViewKind
-from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, Outcome, Severity, Verdict
+from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, Outcome, Verdict
+from fitter.vocabulary.remarks import Remark, Severity
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
     Outcome.CONVERGED: "The energy stopped decreasing.",
@@ -73,7 +72,7 @@ class PictureFit:
     posed_vertices: Vertices
     silhouette_overlap: float
     verdict: Verdict = Verdict.PLAUSIBLE
-    findings: tuple[Finding, ...] = ()
+    findings: tuple[Remark, ...] = ()
     clothing: tuple[WornRegion, ...] = ()
 
     @property
@@ -87,7 +86,7 @@ class PictureFit:
         if self.is_plausible:
             return OUTCOME_EXPLANATIONS[self.outcome]
         blocking = [each for each in self.findings if each.severity is Severity.BLOCKS]
-        said = [f"{each.code.value}: {each.reason} {each.remedy}" for each in blocking]
+        said = [f"{each.code}: {each.text}" for each in blocking]
         return " ".join((VERDICT_EXPLANATIONS[self.verdict], *said))
 
 
@@ -114,12 +113,12 @@ class FittedView:
     camera: Camera
     focal_length_source: FocalLengthSource
     limb_facing: tuple[LimbFacing, ...]
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
     pictures: Pictures
 
     @property
-    def findings(self) -> tuple[Finding, ...]:
+    def findings(self) -> tuple[Remark, ...]:
         """Faults of the picture, what blocks first."""
         return self.found.findings
 
@@ -191,8 +190,8 @@ class FitResult:
     evaluations: int
     stages: tuple[FitStage, ...]
     alone: CombinedShape | None
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
     stage_seconds: Mapping[str, float]
     differences: tuple[str, ...] = ()
 

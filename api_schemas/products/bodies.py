@@ -7,7 +7,8 @@ from pydantic import AfterValidator, Field, WithJsonSchema
 
 from api_schemas.base import WholeNumber, refusal
 from api_schemas.products.base import BodyColours, ProductOptions, ProductResult
-from api_schemas.results import FitWarning, Vector
+from api_schemas.results import Vector
+from fitter.vocabulary.remarks import Remark
 
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
 """Sides a texture may have, texels."""
@@ -221,7 +222,7 @@ class AnimationResult(ProductResult):
         description="How far soles on the ground slide from frame to frame, on average."
     )
     travelled_m: float = Field(description="From the first place to the last, along the ground.")
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 class Exaggerated(StrEnum):

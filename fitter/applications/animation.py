@@ -28,7 +28,7 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.export.gltf_mesh import BodyTexture
 from fitter.export.views import EYE_LEVEL_M, before_onlooker, coloured_body, framing_camera
 from fitter.person.fitted_person import FittedPerson
-from fitter.remarks import FitWarning
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 MOST_FRAMES = 360
 """Of an animation: 12 s at 30 frames a second. Each is an exact body of 149 kB while it is made."""
@@ -61,7 +61,7 @@ class ChosenMotion:
     motion: Motion
     source: str
     up: Axis | None
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -99,7 +99,7 @@ class Animation:
     skin_mean_error_mm: float
     sliding_mm: float
     travelled_m: float
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 def motion_of_clip(
@@ -169,14 +169,14 @@ def motion_of_name(
     )
 
 
-def _cut_warnings(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarning, ...]:
+def _cut_warnings(shown: int, wanted: int, frame_time_s: float) -> tuple[Remark, ...]:
     if shown >= wanted:
         return ()
     message = (
         f"{shown * frame_time_s:.2f} of {wanted * frame_time_s:.2f} s are shown: an animation "
-        f"has {MOST_FRAMES} frames at most. Ask for a later stretch to see the rest."
+        f"has {MOST_FRAMES} frames at most."
     )
-    return (FitWarning(code="clip-cut", message=message),)
+    return (remark(Note.CLIP_CUT, message),)
 
 
 def animate(
@@ -227,7 +227,7 @@ def animate(
     )
 
 
-def way_warnings(chosen: ChosenMotion, body: MovingBody) -> tuple[FitWarning, ...]:
+def way_warnings(chosen: ChosenMotion, body: MovingBody) -> tuple[Remark, ...]:
     """A warning where feet that stay on the ground lead elsewhere than the file goes."""
     if chosen.up is None:
         return ()
@@ -240,9 +240,9 @@ def way_warnings(chosen: ChosenMotion, body: MovingBody) -> tuple[FitWarning, ..
     message = (
         "Feet that touch the ground stay where they are, which leads elsewhere than the file: its "
         f"way is {planned:.2f} m long and the body's {made:.2f} m, and they end {apart:.2f} m "
-        "apart. The file's own feet slide, or its hips stay on the spot."
+        "apart."
     )
-    return (FitWarning(code="way-differs", message=message),)
+    return (remark(Note.WAY_DIFFERS, message),)
 
 
 def _film(body: MovingBody, model: BodyModel) -> bytes:

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fitter.errors import InvalidInputError
-from fitter.remarks import FitWarning
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 FIELD = "bvh"
 """The request field that errors name."""
@@ -75,7 +75,7 @@ class BvhFile:
     frame_time_s: float
     frames: int
     numbers: "array[float]"
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 def read_bvh(content: bytes) -> BvhFile:
@@ -112,9 +112,7 @@ def read_bvh(content: bytes) -> BvhFile:
         frame_time_s=frame_time_s,
         frames=frames,
         numbers=numbers,
-        warnings=tuple(
-            FitWarning(code="bvh-irregular", message=message) for message in lines.irregular
-        ),
+        warnings=tuple(remark(Note.BVH_IRREGULAR, message) for message in lines.irregular),
     )
 
 

@@ -17,7 +17,7 @@ from fitter.applications.motion_file import MotionFile
 from fitter.applications.poses import Rig
 from fitter.arrays import Vector3
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors, unit_vectors
-from fitter.remarks import FitWarning
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
 
@@ -97,7 +97,7 @@ class UpAxis:
 
     axis: Axis
     to_world: Float[np.ndarray, "3 3"]
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 def given_up_axis(axis: Axis) -> UpAxis:
@@ -119,13 +119,13 @@ def found_up_axis(feet_to_head: Float[np.ndarray, "t 3"]) -> UpAxis:
     # Where no axis has upright frames, the one that is nearest on the whole.
     best = int(np.lexsort((-np.arange(len(AXES)), heights.mean(axis=1), shares))[-1])
     axis, share = AXES[best], float(shares[best])
-    warnings: tuple[FitWarning, ...] = ()
+    warnings: tuple[Remark, ...] = ()
     if axis != AXES[0] or share < _MOST:
         message = (
             f"Up was taken to be the file's {axis}: along it the head is above the feet in "
-            f"{share:.0%} of the frames. If that is wrong, as for a person who lies, send `up`."
+            f"{share:.0%} of the frames."
         )
-        warnings = (FitWarning(code="up-uncertain", message=message),)
+        warnings = (remark(Note.UP_UNCERTAIN, message),)
     return UpAxis(axis=axis, to_world=_to_world(axis), warnings=warnings)
 
 

@@ -9,11 +9,11 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask
-from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody
 from fitter.observation.observation import WornRegion
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.remarks import Box
 
 Joints = Mapping[str, Float[np.ndarray, "2"]]
 """Places by the points' names, continuous pixels."""

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.clothes import clothes
-from fitter.capture.finding import Box, Code, Finding, Remark, Unchecked
 from fitter.capture.framing import (
     camera_distance_m,
     distance,
@@ -18,7 +17,8 @@ from fitter.capture.framing import (
 from fitter.capture.people import face, nobody_else, proportions, somebody
 from fitter.capture.picture_quality import brightness, darkness, sharpness
 from fitter.capture.posture import announced_view, arms, facing, posture, seen_from
-from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Box, Code, Remark, Severity, unchecked
 
 Check = Callable[[Capture], Remark | None]
 
@@ -78,8 +78,8 @@ class Checked:
         From the camera to them, if focal length and stature are known.
     """
 
-    findings: tuple[Finding, ...]
-    unchecked: tuple[Unchecked, ...]
+    findings: tuple[Remark, ...]
+    unchecked: tuple[Remark, ...]
     box: Box | None
     seen: SeenFrom | None
     lean_deg: float | None
@@ -94,11 +94,11 @@ class Checked:
 def check_capture(capture: Capture) -> Checked:
     """Make every check that can be made."""
     remarks = _remarks(capture)
-    findings = [each for each in remarks if isinstance(each, Finding)]
+    findings = [each for each in remarks if each.is_finding]
     cosine = facing(capture) if capture.shows_somebody else None
     return Checked(
         findings=tuple(sorted(findings, key=lambda each: each.severity is not Severity.BLOCKS)),
-        unchecked=tuple(each for each in remarks if isinstance(each, Unchecked)),
+        unchecked=tuple(each for each in remarks if not each.is_finding),
         box=None if capture.body is None else capture.in_original(box_of(capture.body)),
         seen=None if cosine is None else seen_from(cosine),
         lean_deg=lean_deg(capture) if capture.shows_somebody else None,
@@ -111,4 +111,4 @@ def _remarks(capture: Capture) -> list[Remark]:
     if capture.shows_somebody:
         return made + [remark for check in CHECKS_OF_PERSON if (remark := check(capture))]
     codes = CODES_OF_PERSON if capture.view is None else (*CODES_OF_PERSON, Code.OTHER_VIEW)
-    return made + [Unchecked(code=code, reason="Nobody was found.") for code in codes]
+    return made + [unchecked(code, "Nobody was found.") for code in codes]

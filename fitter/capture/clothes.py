@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from typing import Final
 
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.observation.observation import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 _WORDS: Final = {
     BodyRegion.UPPER: "the upper body",
@@ -26,33 +25,27 @@ _JOINTS: Final = {
 def clothes(capture: Capture) -> Remark | None:
     """Whether clothes stand off the trunk or the legs, or whether that cannot be seen."""
     if capture.directions is None and (capture.mask is None or capture.stature_px is None):
-        return Unchecked(
-            code=Code.CLOTHES_LOOSE,
-            reason="There is no outline, for want of a detector, or too few joints are seen.",
+        return unchecked(
+            Code.CLOTHES_LOOSE,
+            "There is no outline, for want of a detector, or too few joints are seen.",
         )
     if capture.clothing is None:
-        return Finding(
-            code=Code.SKIN_NOT_FOUND,
+        return remark(
+            Code.SKIN_NOT_FOUND,
+            "Neither face nor hands show the colour of the person's skin, or the picture has "
+            "no colours: clothes are taken to be loose.",
             severity=Severity.HARMS,
-            reason=(
-                "Neither face nor hands show the colour of the person's skin, or the picture has "
-                "no colours: clothes are taken to be loose."
-            ),
-            remedy="Send a picture in colour with the face in sight, or say how the clothes fit.",
-            points=("nose",),
+            where=("nose",),
         )
     loose = _loose(capture.clothing)
     if not loose:
         return None
-    return Finding(
-        code=Code.CLOTHES_LOOSE,
+    return remark(
+        Code.CLOTHES_LOOSE,
+        f"{what_is_loose(capture.clothing)}, with a probability of "
+        f"{100.0 * min(loose.values()):.0f} %: the body under them is estimated.",
         severity=Severity.HARMS,
-        reason=(
-            f"{what_is_loose(capture.clothing)}, with a probability of "
-            f"{100.0 * min(loose.values()):.0f} %: the body under them is estimated."
-        ),
-        remedy="Have close-fitting clothes worn, or send the weight with the fit.",
-        points=tuple(
+        where=tuple(
             f"{side}_{joint}"
             for region in loose
             for joint in _JOINTS[region]

@@ -7,9 +7,8 @@ from jaxtyping import Float
 
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture, Joints
-from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.detection.landmark_meanings import INDEX_OF_POINT
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 BORDER_PX = 1.0
 """What comes this close to the picture's border may continue beyond it."""
@@ -40,12 +39,6 @@ _NEEDED = frozenset({"left_shoulder", "right_shoulder", "left_hip", "right_hip"}
 which is measured by itself: of twelve people of the tuning half in underwear cut off below the hips
 92 to 100 % of intervals hold, of those cut off at the navel 75 % of waists."""
 
-_SHOW_ALL = "Step back or turn the camera until there is room on all sides of the person."
-_SHOW_THE_TRUNK = (
-    "Show the person from head to foot, and from the shoulders to below the hips at least: step "
-    "back until there is room on all sides."
-)
-
 _LOOKED_FOR = {name for names in _PARTS.values() for name in names}
 
 
@@ -57,16 +50,12 @@ def wholeness(capture: Capture) -> Remark | None:
     if not parts:
         return None
     gone = _joints_beyond(capture.joints, shape, all_known=capture.mask is not None)
-    is_too_little = bool(gone & _NEEDED)
-    return Finding(
-        code=Code.CUT_OFF,
-        severity=Severity.BLOCKS if is_too_little else Severity.HARMS,
-        reason=(
-            f"{len(parts)} of {len(_PARTS)} parts of the person reach to the picture's border or "
-            f"beyond it: {', '.join(parts)}."
-        ),
-        remedy=_SHOW_THE_TRUNK if is_too_little else _SHOW_ALL,
-        points=tuple(name for name in INDEX_OF_POINT if name in beyond),
+    return remark(
+        Code.CUT_OFF,
+        f"{len(parts)} of {len(_PARTS)} parts of the person reach to the picture's border or "
+        f"beyond it: {', '.join(parts)}.",
+        severity=Severity.BLOCKS if gone & _NEEDED else Severity.HARMS,
+        where=tuple(name for name in INDEX_OF_POINT if name in beyond),
     )
 
 
@@ -100,21 +89,18 @@ def _joints_beyond(joints: Joints, shape: tuple[int, ...], *, all_known: bool) -
 def size(capture: Capture) -> Remark | None:
     """Whether the person is too small in the picture, though the picture is large enough."""
     if capture.stature_px is None:
-        return Unchecked(
-            code=Code.PERSON_TOO_SMALL,
-            reason="How tall the person is in the picture is not known without hips and ankles.",
+        return unchecked(
+            Code.PERSON_TOO_SMALL,
+            "How tall the person is in the picture is not known without hips and ankles.",
         )
     if capture.stature_px >= LEAST_STATURE_PX or _is_small(capture):
         return None
-    return Finding(
-        code=Code.PERSON_TOO_SMALL,
+    return remark(
+        Code.PERSON_TOO_SMALL,
+        f"The person is {capture.stature_px / capture.scale:.0f} pixels tall in a picture of "
+        f"{capture.width} x {capture.height}, and {LEAST_STATURE_PX / capture.scale:.0f} are "
+        "the least.",
         severity=_severity(capture.stature_px),
-        reason=(
-            f"The person is {capture.stature_px / capture.scale:.0f} pixels tall in a picture of "
-            f"{capture.width} x {capture.height}, and {LEAST_STATURE_PX / capture.scale:.0f} are "
-            "the least."
-        ),
-        remedy="Go nearer or zoom in until the person fills the picture, or crop it to them.",
     )
 
 
@@ -122,14 +108,11 @@ def picture_size(capture: Capture) -> Remark | None:
     """Whether the picture is too small for whoever fills it."""
     if not _is_small(capture):
         return None
-    return Finding(
-        code=Code.PICTURE_TOO_SMALL,
+    return remark(
+        Code.PICTURE_TOO_SMALL,
+        f"The picture has {capture.width} x {capture.height} pixels; whoever fills it is less "
+        f"than {LEAST_STATURE_PX:.0f} tall.",
         severity=_severity(MOST_FILLED * max(capture.picture.shape[:2])),
-        reason=(
-            f"The picture has {capture.width} x {capture.height} pixels; whoever fills it is less "
-            f"than {LEAST_STATURE_PX:.0f} tall."
-        ),
-        remedy="Send the picture as the camera took it, not a preview or a thumbnail.",
     )
 
 
@@ -175,22 +158,18 @@ def roll(capture: Capture) -> Remark | None:
     """Whether a person who stands upright leans in the picture."""
     lean = lean_deg(capture)
     if lean is None:
-        return Unchecked(
-            code=Code.CAMERA_ROLLED,
-            reason="Nobody is seen to stand upright from ankles to shoulders.",
+        return unchecked(
+            Code.CAMERA_ROLLED, "Nobody is seen to stand upright from ankles to shoulders."
         )
     if abs(lean) <= MOST_ROLLED_DEG:
         return None
-    return Finding(
-        code=Code.CAMERA_ROLLED,
+    return remark(
+        Code.CAMERA_ROLLED,
+        f"From ankles to shoulders the person leans by {abs(lean):.0f} degrees to the "
+        f"{'right' if lean > 0.0 else 'left'} of the picture, and {MOST_ROLLED_DEG:.0f} are "
+        "the most.",
         severity=Severity.HARMS,
-        reason=(
-            f"From ankles to shoulders the person leans by {abs(lean):.0f} degrees to the "
-            f"{'right' if lean > 0.0 else 'left'} of the picture, and {MOST_ROLLED_DEG:.0f} are "
-            "the most."
-        ),
-        remedy="Hold the camera level and have the person stand upright.",
-        points=("left_shoulder", "right_shoulder", "left_ankle", "right_ankle"),
+        where=("left_shoulder", "right_shoulder", "left_ankle", "right_ankle"),
     )
 
 
@@ -219,20 +198,14 @@ def distance(capture: Capture) -> Remark | None:
             if capture.focal_length_px is None
             else "How tall the person is in the picture is not known without hips and ankles."
         )
-        return Unchecked(code=Code.CAMERA_TOO_NEAR, reason=reason)
+        return unchecked(Code.CAMERA_TOO_NEAR, reason)
     if distance_m >= NEAREST_M:
         return None
-    return Finding(
-        code=Code.CAMERA_TOO_NEAR,
+    return remark(
+        Code.CAMERA_TOO_NEAR,
+        f"By the focal length and a height of {capture.height_m:.2f} m the camera was "
+        f"{distance_m:.1f} m from the person, and {NEAREST_M:.1f} m is the least.",
         severity=Severity.HARMS,
-        reason=(
-            f"By the focal length and a height of {capture.height_m:.2f} m the camera was "
-            f"{distance_m:.1f} m from the person, and {NEAREST_M:.1f} m is the least."
-        ),
-        remedy=(
-            "Step back to 2.5 m or more and zoom in; if the picture was cropped, send the focal "
-            "length in its own pixels."
-        ),
     )
 
 

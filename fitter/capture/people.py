@@ -5,13 +5,12 @@ from typing import Final
 import cv2
 import numpy as np
 
-from fitter.capture.capture import Capture, box_of
-from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.capture.capture import Capture
 from fitter.capture.posture import detected_posture
 from fitter.detection.body_landmarks import FACE_NEARBY
 from fitter.detection.detector import DetectedBody
 from fitter.detection.person_detector import DetectedFace
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 SURE: Final = 0.9
 """Probability from which, or 1 minus it, the detector is sure of a pixel."""
@@ -32,7 +31,7 @@ NO_DETECTOR = "No detector looked at the picture."
 def somebody(capture: Capture) -> Remark | None:
     """Whether the person who is meant was found."""
     if capture.bodies is None:
-        return Unchecked(code=Code.NOBODY_FOUND, reason=NO_DETECTOR)
+        return unchecked(Code.NOBODY_FOUND, NO_DETECTOR)
     if capture.body is not None:
         return None
     if not capture.bodies:
@@ -41,55 +40,38 @@ def somebody(capture: Capture) -> Remark | None:
         reason = f"{len(capture.bodies)} people were found, but nobody where the points lie."
     # Whether the points show somebody whom the detector misses, the fit's verdict says.
     is_fitted = capture.directions is not None
-    return Finding(
-        code=Code.NOBODY_FOUND,
-        severity=Severity.HARMS if is_fitted else Severity.BLOCKS,
-        reason=reason,
-        remedy="Have the whole person in the picture, upright, in good light and unhidden.",
+    return remark(
+        Code.NOBODY_FOUND, reason, severity=Severity.HARMS if is_fitted else Severity.BLOCKS
     )
 
 
 def nobody_else(capture: Capture) -> Remark | None:
     """Whether others are in the picture, and nobody says who is meant or they overlap."""
     if capture.bodies is None:
-        return Unchecked(code=Code.SEVERAL_PEOPLE, reason=NO_DETECTOR)
+        return unchecked(Code.SEVERAL_PEOPLE, NO_DETECTOR)
     if not capture.is_clicked and len(_faces(capture)) > 1:
-        return Finding(
-            code=Code.SEVERAL_PEOPLE,
+        return remark(
+            Code.SEVERAL_PEOPLE,
+            f"{len(_faces(capture))} faces are seen where one person was found: what belongs "
+            "to whom cannot be told.",
             severity=Severity.BLOCKS,
-            reason=(
-                f"{len(_faces(capture))} faces are seen where one person was found: what belongs "
-                "to whom cannot be told."
-            ),
-            remedy=_ALONE,
         )
     share = 0.0 if capture.is_clicked else _unsure_share(capture)
     if share > MUDDLED_SHARE:
-        return Finding(
-            code=Code.SEVERAL_PEOPLE,
+        return remark(
+            Code.SEVERAL_PEOPLE,
+            f"It cannot be told what belongs to the person, of {share:.0%} of their size: "
+            "somebody stands behind or before them.",
             severity=Severity.BLOCKS,
-            reason=(
-                f"It cannot be told what belongs to the person, of {share:.0%} of their size: "
-                "somebody stands behind or before them."
-            ),
-            remedy=_ALONE,
         )
     others = [each for each in capture.bodies if each is not capture.body]
     if capture.body is None or not others or capture.is_chosen:
         return None
-    return Finding(
-        code=Code.SEVERAL_PEOPLE,
+    return remark(
+        Code.SEVERAL_PEOPLE,
+        f"{len(capture.bodies)} people were found; the largest is taken.",
         severity=Severity.HARMS,
-        reason=(
-            f"{len(capture.bodies)} people were found; the largest is taken, and the box is that "
-            "of the next."
-        ),
-        remedy="Have nobody else in the picture, or say by `person` or a point who is meant.",
-        box=capture.in_original(box_of(others[0])),
     )
-
-
-_ALONE: Final = "Have nobody else in the picture, or click all points on the person."
 
 
 def _faces(capture: Capture) -> list[DetectedFace]:
@@ -126,18 +108,15 @@ def _unsure_share(capture: Capture) -> float:
 def face(capture: Capture) -> Remark | None:
     """Whether the face of who is seen from the front is hidden."""
     if capture.body is None:
-        return Unchecked(code=Code.FACE_HIDDEN, reason=NO_DETECTOR)
+        return unchecked(Code.FACE_HIDDEN, NO_DETECTOR)
     if not capture.body.hides_face:
         return None
-    return Finding(
-        code=Code.FACE_HIDDEN,
+    return remark(
+        Code.FACE_HIDDEN,
+        "The person is seen from the front, but no face: something hides it. Which way they "
+        "face is judged by trunk and legs, and their skin's colour by the hands alone.",
         severity=Severity.HARMS,
-        reason=(
-            "The person is seen from the front, but no face: something hides it. Which way they "
-            "face is judged by trunk and legs, and their skin's colour by the hands alone."
-        ),
-        remedy="Send the picture with the face in sight.",
-        points=("nose", "left_eye", "right_eye"),
+        where=("nose", "left_eye", "right_eye"),
     )
 
 
@@ -154,28 +133,23 @@ def proportions(capture: Capture) -> Remark | None:
     Clicks are not looked at: they lie farther apart than the detector's eyes.
     """
     if capture.body is None:
-        return Unchecked(code=Code.CHILD, reason="Without a detector eyes are not compared.")
+        return unchecked(Code.CHILD, "Without a detector eyes are not compared.")
     eyes = [capture.joints.get(f"{side}_eye") for side in ("left", "right")]
     if eyes[0] is None or eyes[1] is None or capture.stature_px is None:
-        return Unchecked(code=Code.CHILD, reason="Both eyes are not seen.")
+        return unchecked(Code.CHILD, "Both eyes are not seen.")
     # How tall somebody is who does not stand, or to the thighs alone, a picture hardly tells.
     if detected_posture(capture) is not None or not _sees_stature(capture.body):
-        return Unchecked(
-            code=Code.CHILD, reason="The person is not seen to stand from head to foot."
-        )
+        return unchecked(Code.CHILD, "The person is not seen to stand from head to foot.")
     share = float(np.linalg.norm(eyes[0] - eyes[1])) / capture.stature_px
     if share <= MOST_BETWEEN_EYES:
         return None
-    return Finding(
-        code=Code.CHILD,
+    return remark(
+        Code.CHILD,
+        f"The eyes are {100.0 * share:.1f} % of the stature apart, and those of grown-up "
+        f"people at most {100.0 * MOST_BETWEEN_EYES:.1f}: this seems to be a child, and the "
+        "bodies are those of grown-up people.",
         severity=Severity.BLOCKS,
-        reason=(
-            f"The eyes are {100.0 * share:.1f} % of the stature apart, and those of grown-up "
-            f"people at most {100.0 * MOST_BETWEEN_EYES:.1f}: this seems to be a child, and the "
-            "bodies are those of grown-up people."
-        ),
-        remedy="Measure grown-up people alone; if this is one, let the face be seen clearly.",
-        points=("left_eye", "right_eye"),
+        where=("left_eye", "right_eye"),
     )
 
 

@@ -13,9 +13,8 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage, Mask
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.observation.pixels import LUMINANCE_WEIGHTS, linear_from_display
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 REBLUR_PX = 1.0
 """σ₀."""
@@ -56,7 +55,7 @@ def sharpness(capture: Capture) -> Remark | None:
     grey = cv2.cvtColor(capture.picture, cv2.COLOR_RGB2GRAY).astype(np.float32) / 255.0
     blur_px = blur_of_edges(grey, region > 0)
     if blur_px is None:
-        return Unchecked(code=Code.BLURRED, reason="There are too few clear edges to judge by.")
+        return unchecked(Code.BLURRED, "There are too few clear edges to judge by.")
     if blur_px < HARMFUL_PX:
         return None
     on_body = (
@@ -64,15 +63,12 @@ def sharpness(capture: Capture) -> Remark | None:
         if stature_px is not None and capture.shows_somebody
         else ""
     )
-    return Finding(
-        code=Code.BLURRED,
+    return remark(
+        Code.BLURRED,
+        f"Edges are blurred with a standard deviation of {blur_px / capture.scale:.1f} "
+        f"pixels{on_body} where sharp ones have at most "
+        f"{HARMFUL_PX / capture.scale:.1f}.",
         severity=Severity.BLOCKS if blur_px >= BLOCKING_PX else Severity.HARMS,
-        reason=(
-            f"Edges are blurred with a standard deviation of {blur_px / capture.scale:.1f} "
-            f"pixels{on_body} where sharp ones have at most "
-            f"{HARMFUL_PX / capture.scale:.1f}."
-        ),
-        remedy="Let the camera focus on the person, hold it still, and use more light.",
     )
 
 
@@ -152,14 +148,11 @@ def darkness(capture: Capture) -> Remark | None:
     luminance = bright_luminance(capture.picture[capture.region])
     if luminance >= DARKEST:
         return None
-    return Finding(
-        code=Code.TOO_DARK,
+    return remark(
+        Code.TOO_DARK,
+        f"The brighter parts of the person have {100.0 * luminance:.1f} % of the light that a "
+        f"picture can show, and {100.0 * DARKEST:.1f} % is the least.",
         severity=Severity.HARMS,
-        reason=(
-            f"The brighter parts of the person have {100.0 * luminance:.1f} % of the light that a "
-            f"picture can show, and {100.0 * DARKEST:.1f} % is the least."
-        ),
-        remedy="Switch on more light, from the camera's side and not from behind the person.",
     )
 
 
@@ -168,14 +161,11 @@ def brightness(capture: Capture) -> Remark | None:
     share = burnt_share(capture.picture[capture.region])
     if share < MOST_BURNT:
         return None
-    return Finding(
-        code=Code.TOO_BRIGHT,
+    return remark(
+        Code.TOO_BRIGHT,
+        f"{100.0 * share:.0f} % of the person are burnt out, and {100.0 * MOST_BURNT:.0f} % is "
+        "the most.",
         severity=Severity.HARMS,
-        reason=(
-            f"{100.0 * share:.0f} % of the person are burnt out, and {100.0 * MOST_BURNT:.0f} % is "
-            "the most."
-        ),
-        remedy="Expose less: touch the person on the camera's screen, or leave the glaring light.",
     )
 
 

@@ -13,20 +13,11 @@ from jaxtyping import Bool, Float
 
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture, Directions, Joints
-from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.detection.body_landmarks import CLEARLY_TURNED, trunk_facing
 from fitter.detection.detector import DetectedBody
 from fitter.vocabulary.choices import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
-
-REMEDY: Final = "Have the person stand upright, with straight legs."
-
-OF_WHO_CANNOT: Final = (
-    "Have the person stand upright, with straight legs, if they can. Of who cannot, a body is made "
-    "of measurements taken with a tape; a picture gives the pose, by points put by hand, and rough "
-    "measurements if these are insisted on."
-)
-"""Remedy for who sits, kneels or lies, in a wheelchair for instance."""
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 BENT_DEG, FOLDED_DEG = 35.0, 50.0
 """Both thighs turned from the trunk by more than the first make girths of waist and hips doubtful;
@@ -70,7 +61,7 @@ def posture(capture: Capture) -> Remark | None:
     found = detected_posture(capture)
     if capture.directions is not None:
         fitted = _posture(capture.directions)
-        return max(fitted, found if isinstance(found, Finding) else None, key=_gravity)
+        return max(fitted, found if found is not None and found.is_finding else None, key=_gravity)
     return found
 
 
@@ -79,7 +70,7 @@ def detected_posture(capture: Capture) -> Remark | None:
     return max(_posture(detected_directions(capture)), _head(capture), key=_gravity)
 
 
-def _head(capture: Capture) -> Finding | None:
+def _head(capture: Capture) -> Remark | None:
     """Height of the head: of who bends over it sinks between the shoulders, from any side."""
     nose, shoulders = capture.joints.get("nose"), capture.middle("shoulder")
     if capture.body is None or capture.body.leaning_deg < STOOPED_DEG:
@@ -89,23 +80,20 @@ def _head(capture: Capture) -> Finding | None:
     height = float(shoulders[1] - nose[1]) / capture.stature_px
     if height > LOW_HEAD:
         return None
-    return Finding(
-        code=Code.NOT_STANDING,
+    return remark(
+        Code.NOT_STANDING,
+        f"The person bends over: the trunk leans by about {capture.body.leaning_deg:.0f} "
+        f"degrees, and the nose is {100.0 * abs(height):.0f} % of the stature "
+        f"{'above' if height > 0.0 else 'below'} the shoulders.",
         severity=Severity.HARMS if height > HANGING_HEAD else Severity.BLOCKS,
-        reason=(
-            f"The person bends over: the trunk leans by about {capture.body.leaning_deg:.0f} "
-            f"degrees, and the nose is {100.0 * abs(height):.0f} % of the stature "
-            f"{'above' if height > 0.0 else 'below'} the shoulders."
-        ),
-        remedy=REMEDY,
-        points=("nose", "left_shoulder", "right_shoulder"),
+        where=("nose", "left_shoulder", "right_shoulder"),
     )
 
 
-def _gravity(remark: Remark | None) -> int:
-    if not isinstance(remark, Finding):
+def _gravity(found: Remark | None) -> int:
+    if found is None:
         return 0
-    return len(Severity) - list(Severity).index(remark.severity)
+    return len(Severity) - list(Severity).index(found.severity)
 
 
 def _posture(directions: Directions) -> Remark | None:
@@ -117,7 +105,7 @@ def _posture(directions: Directions) -> Remark | None:
     ]
     # From the side the near leg alone is seen.
     if trunk is None or not hips:
-        return Unchecked(code=Code.NOT_STANDING, reason="Trunk and thighs are not both seen.")
+        return unchecked(Code.NOT_STANDING, "Trunk and thighs are not both seen.")
     bent, knees = min(hips), _knees_deg(directions)
     folded = bent + knees
     leaning = angle_deg(np.array([0.0, -1.0, 0.0]), trunk)
@@ -126,16 +114,13 @@ def _posture(directions: Directions) -> Remark | None:
     if bent < BENT_DEG and folded < CROUCHED_DEG and not lies and not kneels:
         return None
     sits = bent >= FOLDED_DEG or folded >= SEATED_DEG
-    return Finding(
-        code=Code.NOT_STANDING,
+    return remark(
+        Code.NOT_STANDING,
+        f"The person {_words(bent, knees, lies=lies, leaning=leaning)}: the thighs are "
+        f"turned from the trunk by {bent:.0f} degrees, the shins from them by {knees:.0f}, "
+        f"and the trunk from the vertical by {leaning:.0f}.",
         severity=Severity.BLOCKS if lies or kneels or sits else Severity.HARMS,
-        reason=(
-            f"The person {_words(bent, knees, lies=lies, leaning=leaning)}: the thighs are "
-            f"turned from the trunk by {bent:.0f} degrees, the shins from them by {knees:.0f}, "
-            f"and the trunk from the vertical by {leaning:.0f}."
-        ),
-        remedy=OF_WHO_CANNOT,
-        points=("left_hip", "right_hip", "left_knee", "right_knee"),
+        where=("left_hip", "right_hip", "left_knee", "right_knee"),
     )
 
 
@@ -258,22 +243,17 @@ def announced_view(capture: Capture) -> Remark | None:
         return None
     cosine = facing(capture)
     if cosine is None:
-        return Unchecked(
-            code=Code.OTHER_VIEW, reason="Shoulders and hips are not all in the picture."
-        )
+        return unchecked(Code.OTHER_VIEW, "Shoulders and hips are not all in the picture.")
     seen = seen_from(cosine)
     if seen.value == capture.view.value:
         return None
-    return Finding(
-        code=Code.OTHER_VIEW,
+    return remark(
+        Code.OTHER_VIEW,
+        f"The person is to be seen {_SAID[capture.view]} and is turned from the camera by "
+        f"about {math.degrees(math.acos(cosine)):.0f} degrees, where "
+        f"{_TURN_DEG[capture.view]} are meant.",
         severity=Severity.HARMS if seen is SeenFrom.BETWEEN else Severity.BLOCKS,
-        reason=(
-            f"The person is to be seen {_SAID[capture.view]} and is turned from the camera by "
-            f"about {math.degrees(math.acos(cosine)):.0f} degrees, where "
-            f"{_TURN_DEG[capture.view]} are meant."
-        ),
-        remedy=f"Have the person turn until the camera sees them {_SAID[capture.view]}.",
-        points=("left_shoulder", "right_shoulder", "left_hip", "right_hip"),
+        where=("left_shoulder", "right_shoulder", "left_hip", "right_hip"),
     )
 
 
@@ -291,13 +271,11 @@ _UPPER_ARM, _FOREARM = np.linspace(0.5, 1.0, 6), np.linspace(0.1, 0.9, 8)
 def arms(capture: Capture) -> Remark | None:
     """Whether between trunk and arms, seen from the front or from behind, background shows."""
     if capture.mask is None:
-        return Unchecked(
-            code=Code.ARMS_AGAINST_TRUNK, reason="Without a detector there is no outline."
-        )
+        return unchecked(Code.ARMS_AGAINST_TRUNK, "Without a detector there is no outline.")
     if not is_broadside(capture):
-        return Unchecked(
-            code=Code.ARMS_AGAINST_TRUNK,
-            reason="Only from the front or from behind are arms seen beside the trunk.",
+        return unchecked(
+            Code.ARMS_AGAINST_TRUNK,
+            "Only from the front or from behind are arms seen beside the trunk.",
         )
     shares = {side: free_share(capture, capture.mask, side) for side in _SIDES}
     against = {
@@ -306,15 +284,12 @@ def arms(capture: Capture) -> Remark | None:
     if not against:
         return None
     said = " and ".join(f"{100.0 * share:.0f} % of the {side}" for side, share in against.items())
-    return Finding(
-        code=Code.ARMS_AGAINST_TRUNK,
+    return remark(
+        Code.ARMS_AGAINST_TRUNK,
+        f"Background shows between trunk and arm along {said} arm, from the armpit to the "
+        f"wrist, where {100.0 * LEAST_FREE:.0f} % is the least.",
         severity=Severity.HARMS,
-        reason=(
-            f"Background shows between trunk and arm along {said} arm, from the armpit to the "
-            f"wrist, where {100.0 * LEAST_FREE:.0f} % is the least."
-        ),
-        remedy="Have the arms held away from the body, by a hand's breadth at the hips or more.",
-        points=tuple(f"{side}_{joint}" for side in against for joint in ("elbow", "wrist")),
+        where=tuple(f"{side}_{joint}" for side in against for joint in ("elbow", "wrist")),
     )
 
 

@@ -23,12 +23,12 @@ from fitter.observation.pixels import (
     working_size,
 )
 from fitter.observation.subject import MEAN_HEIGHT_M
-from fitter.remarks import Assumption
 from fitter.request import Click
 from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
 from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource
+from fitter.vocabulary.remarks import Note, Remark, assumed
 
 ASSUMED_HEIGHT_M = 1.7
 """Of people whose gender is not known either."""
@@ -210,15 +210,15 @@ def _height_m(question: CaptureQuestion) -> float:
     return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]
 
 
-def assumed_height(question: CaptureQuestion, height_m: float) -> tuple[Assumption, ...]:
+def assumed_height(question: CaptureQuestion, height_m: float) -> tuple[Remark, ...]:
     """The height that was taken where none is said."""
     if question.height_m is not None:
         return ()
     whose = "people" if question.gender is None else f"the gender ({question.gender.value})"
     return (
-        Assumption(
-            quantity="height_m",
-            value=height_m,
-            reason=f"No height was given; about the mean of {whose} was taken.",
+        assumed(
+            Note.HEIGHT_ASSUMED,
+            f"No height was given; {height_m:.2f} m, about the mean of {whose}, was taken.",
+            where=("height_m",),
         ),
     )

@@ -8,15 +8,14 @@ import numpy as np
 
 from fitter.arrays import GreyImage, Mask
 from fitter.capture.clothes import what_is_loose
-from fitter.capture.finding import Code, Finding
 from fitter.energies.objective import Objective
 from fitter.measurement.definitions import INTERVAL_SD
 from fitter.observation.observation import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
-from fitter.remarks import FitWarning
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
+from fitter.vocabulary.remarks import Code, Note, Remark, remark
 
 PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
     BodyRegion.UPPER: frozenset({"chest", "spine"}),
@@ -110,7 +109,7 @@ def clothes_are_guessed(objective: Objective, said: frozenset[Clothing]) -> bool
     return clothes is not None and not clothes.learnt_from and Clothing.AUTO in said
 
 
-def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[FitWarning, ...]:
+def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[Remark, ...]:
     """Doubts about how clothes were taken; empty for tight ones."""
     clothes = objective.evidence.clothes
     undressed = clothes is not None and clothes.looks_undressed
@@ -118,11 +117,11 @@ def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[
 
 
 def with_what_clothes_cost(
-    findings: Sequence[Finding],
+    findings: Sequence[Remark],
     clothing: Sequence[WornRegion],
     waist_cm: float | None,
     weighed_cm: float | None,
-) -> tuple[Finding, ...]:
+) -> tuple[Remark, ...]:
     """The findings; that of loose clothes with how well the waist is known, and would be.
 
     Parameters
@@ -136,13 +135,13 @@ def with_what_clothes_cost(
     """
     return tuple(
         _costing(each, what_is_loose(clothing), waist_cm, weighed_cm)
-        if each.code is Code.CLOTHES_LOOSE and waist_cm is not None
+        if each.code == Code.CLOTHES_LOOSE and waist_cm is not None
         else each
         for each in findings
     )
 
 
-def _costing(found: Finding, said: str, waist_cm: float, weighed_cm: float | None) -> Finding:
+def _costing(found: Remark, said: str, waist_cm: float, weighed_cm: float | None) -> Remark:
     remedy = "Close-fitting clothes make it surer."
     if weighed_cm is not None:
         remedy = f"Close-fitting clothes make it surer, or the weight: ± {_half(weighed_cm)} cm."
@@ -161,11 +160,9 @@ def _half(standard_error: float) -> str:
     return f"{INTERVAL_SD * standard_error:.0f}"
 
 
-_NOT_LOOSE = FitWarning(
-    code="clothes-not-loose",
-    message=(
-        "Trunk and thighs show much of the colour of the person's skin, as in underwear or "
-        "swimwear. If nothing loose hides them, say that clothing is tight: as it is, girths may "
-        "come out several centimetres too small."
-    ),
+_NOT_LOOSE = remark(
+    Note.CLOTHES_NOT_LOOSE,
+    "Trunk and thighs show much of the colour of the person's skin, as in underwear or "
+    "swimwear: girths may "
+    "come out several centimetres too small.",
 )

@@ -17,10 +17,9 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape
-from fitter.capture.finding import Code, Finding
 from fitter.measurement.anthropometry import MeasuringBody, measurement_jacobian
 from fitter.vocabulary.measurements import STATURE, WEIGHT
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +79,7 @@ def widened_covariance(
     covariance: Float[np.ndarray, "n n"],
     body: MeasuringBody,
     shape: Shape,
-    pictures: Sequence[Sequence[Finding]],
+    pictures: Sequence[Sequence[Remark]],
     given: Collection[str],
 ) -> Float[np.ndarray, "n n"]:
     """The covariance of a shape that the findings leave; the same where nothing harms.
@@ -118,7 +117,7 @@ def widened_covariance(
     return 0.5 * (widened + widened.T)
 
 
-def _factor(of: Callable[[Harm], float], pictures: Sequence[Sequence[Finding]]) -> float:
+def _factor(of: Callable[[Harm], float], pictures: Sequence[Sequence[Remark]]) -> float:
     return min(
         (
             max(

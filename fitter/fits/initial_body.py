@@ -19,7 +19,6 @@ from fitter.parameters import BodyParameters
 from fitter.population.known_person import known_person
 from fitter.pose_init.click_problem import clicked_points
 from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.render.contours import outline_loops
 from fitter.render.rasterizer import render
@@ -27,6 +26,7 @@ from fitter.request import Person, View
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, LimbFacing
 from fitter.vocabulary.points import POINT_NAMES
+from fitter.vocabulary.remarks import Remark
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -62,8 +62,8 @@ class InitialBody:
     landmarks: Mapping[str, Float[np.ndarray, "2"]]
     limbs: tuple[LimbFacing, ...]
     residual_px: Mapping[str, float]
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 def initial_body(

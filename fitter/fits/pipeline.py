@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Final
 
 from fitter.arrays import Shape
-from fitter.capture.finding import Code
 from fitter.energies.objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
@@ -43,6 +42,7 @@ from fitter.request import FitRequest, Paper, View
 from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
 from fitter.vocabulary.choices import Cues, PaperEnergy
 from fitter.vocabulary.measurements import WEIGHT
+from fitter.vocabulary.remarks import Code
 
 _WAIST: Final = "waist_girth_smallest"
 
@@ -241,7 +241,7 @@ def _with_cost_of_clothes(
 ) -> tuple[PictureFit, ...]:
     """The same; where loose clothes hide somebody, it is said what that costs."""
     findings = [found for each in people for found in each.findings]
-    if not any(found.code is Code.CLOTHES_LOOSE for found in findings):
+    if not any(found.code == Code.CLOTHES_LOOSE for found in findings):
         return tuple(people)
     covariance = people[0].person.shape_covariance
     assert covariance is not None

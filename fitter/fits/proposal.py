@@ -14,14 +14,13 @@ from jaxtyping import UInt8
 
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.checking import Checked, check_capture
-from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody, Detector
 from fitter.fits.capture_check import CaptureQuestion, assumed_height, capture_of
 from fitter.observation.clicks import scaled_clicks
 from fitter.observation.decoding import decode_picture
 from fitter.observation.subject import check_height
-from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
+from fitter.vocabulary.remarks import Box, Note, Remark, remark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,8 +71,8 @@ class Proposal:
     points: Mapping[str, ProposedPoint]
     mask: UInt8[np.ndarray, "h w"] | None
     checked: Checked
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 def propose(
@@ -159,21 +158,19 @@ CHAINS = {
 """Joints of arms and legs, from the trunk outward."""
 
 
-def proposal_warnings(points: Mapping[str, Click]) -> tuple[FitWarning, ...]:
+def proposal_warnings(points: Mapping[str, Click]) -> tuple[Remark, ...]:
     """Warnings of proposed points; everything is in pixels of the working picture."""
     found = {
-        "seen-from-behind": (
+        Note.SEEN_FROM_BEHIND: (
             _is_from_behind(points),
-            "The person seems to be seen from behind: see whether left and right are theirs.",
+            "The person seems to be seen from behind.",
         ),
-        "limbs-crossed": (
+        Note.LIMBS_CROSSED: (
             any(_are_crossed(points, chain) for chain in CHAINS.values()),
-            "Arms or legs cross in the picture: see whether left and right are the right ones.",
+            "Arms or legs cross in the picture.",
         ),
     }
-    return tuple(
-        FitWarning(code=code, message=message) for code, (holds, message) in found.items() if holds
-    )
+    return tuple(remark(code, reason) for code, (holds, reason) in found.items() if holds)
 
 
 def _is_from_behind(points: Mapping[str, Click]) -> bool:

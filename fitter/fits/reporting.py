@@ -22,12 +22,12 @@ from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import CombinedShape
 from fitter.population.known_person import KnownPerson
 from fitter.pose_init.initial_pose import PoseHypothesis
-from fitter.remarks import FitWarning
 from fitter.request import Choices, View
 from fitter.result import PictureFit
 from fitter.vocabulary.choices import Cues, Facing, ViewKind
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.outcomes import FacingSource, LimbFacing, Outcome, Verdict
+from fitter.vocabulary.remarks import Code, Note, Remark, remark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,49 +134,41 @@ def limb_facings(
     return tuple(facings)
 
 
-def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarning, ...]:
+def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[Remark, ...]:
     """Warnings of what the caller should look at."""
-    warnings: list[FitWarning] = []
+    warnings: list[Remark] = []
     if overlap < POOR_OVERLAP:
         warnings.append(
-            FitWarning(
-                code="low-silhouette-overlap",
-                message=(
-                    f"The body covers the segmented person with an overlap of {overlap:.2f} only. "
-                    "Check the points and left and right, or send a mask."
-                ),
+            remark(
+                Note.LOW_OVERLAP,
+                f"The body covers the segmented person with an overlap of {overlap:.2f} only.",
             )
         )
     unsure = [facing.limb for facing in facings if facing.ambiguous]
     if unsure:
         warnings.append(
-            FitWarning(
-                code="ambiguous-limb-facing",
-                message=(
-                    f"{', '.join(unsure)}: the picture fits about as well facing the other way. "
-                    "Say which in limb_facing."
-                ),
+            remark(
+                Note.AMBIGUOUS_FACING,
+                f"{', '.join(unsure)}: the picture fits about as well facing the other way.",
             )
         )
     return tuple(warnings)
 
 
-def insistence_warnings(choices: Choices, found: PictureFit) -> tuple[FitWarning, ...]:
+def insistence_warnings(choices: Choices, found: PictureFit) -> tuple[Remark, ...]:
     """Warnings of measurements that are given because the request insists."""
     if found.is_plausible or not choices.force:
         return ()
     return (
-        FitWarning(
-            code=found.verdict.value.replace("_", "-"),
-            message=(
-                "Measurements are given because the request forces them, and may be those of "
-                f"nobody. {found.outcome_explanation}"
-            ),
+        remark(
+            Note(found.verdict.value.replace("_", "-")),
+            "Measurements are given because the request forces them, and may be those of "
+            f"nobody. {found.outcome_explanation}",
         ),
     )
 
 
-def shading_warnings(view: View, found: PictureFit) -> tuple[FitWarning, ...]:
+def shading_warnings(view: View, found: PictureFit) -> tuple[Remark, ...]:
     """Warnings of what was asked for about the light but could not be found."""
     if view.cues is not Cues.SES:
         return ()
@@ -189,7 +181,7 @@ def person_warnings(
     units: Mapping[str, str],
     views: Sequence[ViewKind | None],
     bodies: Sequence[BodyParameters],
-) -> tuple[FitWarning, ...]:
+) -> tuple[Remark, ...]:
     """Warnings of what the caller should look at in the fit as a whole.
 
     ``alone`` is what several pictures say of the shape, each by itself; ``units`` are by
@@ -216,50 +208,39 @@ def turned_deg(body: BodyParameters) -> float:
     return float(np.degrees(np.arctan2(np.hypot(forward[0], forward[1]), forward[2])))
 
 
-def _other_view(place: str, view: ViewKind | None, body: BodyParameters) -> FitWarning | None:
+def _other_view(place: str, view: ViewKind | None, body: BodyParameters) -> Remark | None:
     if view in (None, ViewKind.OTHER):
         return None
     found = turned_deg(body)
     if abs(found - _ANNOUNCED_DEG[view]) <= MOST_TURNED_DEG:
         return None
-    return FitWarning(
-        code="other-view",
-        message=(
-            f"{place} is said to be from {_SAID[view]}, but the body found in it is turned "
-            f"by {found:.0f} degrees from facing the camera. Check the view, whether left and "
-            "right are the person's own, and whether the picture is mirrored."
-        ),
+    return remark(
+        Code.OTHER_VIEW,
+        f"{place} is said to be from {_SAID[view]}, but the body found in it is turned "
+        f"by {found:.0f} degrees from facing the camera.",
     )
 
 
-def _contradicted(said: GivenMeasurement, unit: str, who: str) -> FitWarning | None:
+def _contradicted(said: GivenMeasurement, unit: str, who: str) -> Remark | None:
     if abs(said.given - said.value) <= MOST_DEVIATIONS * said.standard_error:
         return None
-    return FitWarning(
-        code="given-contradicted",
-        message=(
-            f"{said.name} was given as {said.given:.1f} {unit}, but by {who} and the "
-            f"height it is {said.value:.0f} ± {INTERVAL_SD * said.standard_error:.0f} {unit}. "
-            "Check this value and the height, and their units."
-        ),
+    return remark(
+        Note.GIVEN_CONTRADICTED,
+        f"{said.name} was given as {said.given:.1f} {unit}, but by {who} and the "
+        f"height it is {said.value:.0f} ± {INTERVAL_SD * said.standard_error:.0f} {unit}.",
     )
 
 
-def _different_people(alone: CombinedShape) -> FitWarning:
-    return FitWarning(
-        code="different-people",
-        message=(
-            f"The pictures seem to show different people: the body in views.{alone.differing} "
-            "differs from that in the others as pictures of one person hardly do. Check that view "
-            "and its points, and left and right in it."
-        ),
+def _different_people(alone: CombinedShape) -> Remark:
+    return remark(
+        Note.DIFFERENT_PEOPLE,
+        f"The pictures seem to show different people: the body in views.{alone.differing} "
+        "differs from that in the others as pictures of one person hardly do.",
     )
 
 
-_SHADING_NOT_USED = FitWarning(
-    code="shading-not-used",
-    message=(
-        "Too little of the body is visible, unclipped and away from its outline for shading to "
-        "say anything; the result is that of silhouette and edges."
-    ),
+_SHADING_NOT_USED = remark(
+    Note.SHADING_NOT_USED,
+    "Too little of the body is visible, unclipped and away from its outline for shading to "
+    "say anything; the result is that of silhouette and edges.",
 )

@@ -20,7 +20,6 @@ from jaxtyping import Integer, Shaped
 
 from fitter.arrays import Mask
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Box, Code, Finding
 from fitter.energies.objective import Objective
 from fitter.evidence.doubtful_outline import off_the_body, scale_of
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
@@ -37,7 +36,8 @@ from fitter.render.rasterizer import Rendering
 from fitter.result import PictureFit
 from fitter.segmentation.skin_colour import nearest_of
 from fitter.vocabulary.choices import Gender
-from fitter.vocabulary.outcomes import Severity, Verdict
+from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark
 
 
 def settle(
@@ -80,9 +80,7 @@ def _settled(
     checked = check_capture(capture_of_fit(picture, known.height_m, body, seen))
     findings = (*contradicted.findings, *checked.findings)
     if not is_outgrown(figures):
-        findings += obstruction(
-            objective.evidence.silhouette, body.rendering, parts, scale=observation.scale
-        )
+        findings += obstruction(objective.evidence.silhouette, body.rendering, parts)
     verdict = contradicted.verdict
     if verdict is Verdict.PLAUSIBLE and not checked.usable:
         verdict = Verdict.IMPLAUSIBLE
@@ -157,25 +155,12 @@ more, that of a person seen as badly at most 11. An animal's joints are 2.2 stan
 a body of 34 nats; an athlete's body costs 26, with points that are off by 1.0."""
 
 
-_OUTGROWN_REMEDY: Final = (
-    "Put aside what is held before the body. If it is the body's own, take a tape: pictures cannot "
-    "tell the measurements of a body so far from those that were learned."
-)
-_REMEDIES: Final = {
-    Verdict.IMPLAUSIBLE: (
-        "See whether the points are on the right joints of one person, and whether a mask that was "
-        "sent shows this person alone."
-    ),
-    Verdict.NO_PERSON: "Click the joints of a person, or send another picture.",
-}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contradiction:
     """The verdict on a fit, and what contradicts a person: nothing, or one finding that blocks."""
 
     verdict: Verdict = Verdict.PLAUSIBLE
-    findings: tuple[Finding, ...] = ()
+    findings: tuple[Remark, ...] = ()
 
 
 def contradiction(found: Plausibility) -> Contradiction:
@@ -209,11 +194,10 @@ def contradiction(found: Plausibility) -> Contradiction:
         "The points ask for a pose or a shape that people hardly have.": is_no_body,
     }
     verdict = Verdict.NO_PERSON if nobody else Verdict.IMPLAUSIBLE
-    finding = Finding(
-        code=Code.CONTRADICTED,
+    finding = remark(
+        Code.CONTRADICTED,
+        " ".join(sentence for sentence, holds in said.items() if holds),
         severity=Severity.BLOCKS,
-        reason=" ".join(sentence for sentence, holds in said.items() if holds),
-        remedy=_REMEDIES[verdict] if other else _OUTGROWN_REMEDY,
     )
     return Contradiction(verdict=verdict, findings=(finding,))
 
@@ -267,9 +251,7 @@ def obstruction(
     silhouette: SilhouetteEvidence,
     rendering: Rendering,
     parts: Shaped[np.ndarray, "h w"],
-    *,
-    scale: float,
-) -> tuple[Finding, ...]:
+) -> tuple[Remark, ...]:
     """What is to be told of things before the person or beside them: nothing, or one finding.
 
     Parameters
@@ -280,8 +262,6 @@ def obstruction(
         The body as it was found in the picture.
     parts
         From :func:`nearest_parts`.
-    scale
-        Working pixels per pixel of the original.
     """
     doubtful = silhouette.doubtful
     if not doubtful.any() or not rendering.silhouette.any():
@@ -302,15 +282,11 @@ def obstruction(
         return ()
     said = [f"{100.0 * share:.0f} % at the {name}" for name, share in told.items()]
     return (
-        Finding(
-            code=Code.COVERED,
+        remark(
+            Code.COVERED,
+            "Something covers the person, touches their outline or looks like them: of the "
+            f"outline {_listed(said)} does not count.",
             severity=Severity.HARMS,
-            reason=(
-                "Something covers the person, touches their outline or looks like them: of the "
-                f"outline {_listed(said)} does not count."
-            ),
-            remedy="Have nothing and nobody before the person or beside them.",
-            box=_box(outline & doubtful & np.isin(parts, list(told)), scale),
         ),
     )
 
@@ -334,14 +310,6 @@ def _outline(silhouette: Mask) -> Mask:
     """(h, w) the outermost pixels; the picture's own border bounds nothing."""
     region = silhouette.astype(np.uint8)
     return silhouette & (cv2.erode(region, np.ones((3, 3), np.uint8)) == 0)
-
-
-def _box(region: Mask, scale: float) -> Box:
-    """Around a region, pixels of the original."""
-    rows, columns = np.flatnonzero(region.any(axis=1)), np.flatnonzero(region.any(axis=0))
-    sides = columns[0], rows[0], columns[-1] + 1, rows[-1] + 1
-    left, top, right, bottom = (float(each) / scale for each in sides)
-    return left, top, right, bottom
 
 
 def _listed(words: Sequence[str]) -> str:

@@ -13,9 +13,9 @@ from dataclasses import replace
 
 from fitter.detection.detector import DetectedBody
 from fitter.errors import InvalidInputError
-from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click
 from fitter.vocabulary.points import CLEAR_BREADTH, PointFault, place_faults, shortage
+from fitter.vocabulary.remarks import Note, Remark, assumed, remark
 
 DEFAULT_SPREAD_M = 0.015
 SPREADS_M: Mapping[str, float] = {
@@ -77,7 +77,7 @@ def check_places(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
         raise _refusal(fault)
 
 
-def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
+def side_warnings(clicks: Mapping[str, Click]) -> tuple[Remark, ...]:
     """Warnings where left and right contradict each other.
 
     With the trunk upright, the left of a person seen from the front lies to the right, and of one
@@ -93,12 +93,10 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
     hips = _seen_from_front(clicks, "hip", trunk, breadth=breadth)
     if None not in (shoulders, hips) and shoulders != hips:
         return (
-            FitWarning(
-                code="shoulders-and-hips-disagree",
-                message=(
-                    "By the shoulders the person is seen from one side, by the hips from the "
-                    "other: left and right may be swapped in one pair. They are the person's own."
-                ),
+            remark(
+                Note.SHOULDERS_AND_HIPS_DISAGREE,
+                "By the shoulders the person is seen from one side, by the hips from the "
+                "other: left and right may be swapped in one pair.",
             ),
         )
     trunk_from_front = hips if shoulders is None else shoulders
@@ -110,12 +108,9 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
         eyes_from_front,
     ):
         return (
-            FitWarning(
-                code="left-and-right-may-be-swapped",
-                message=(
-                    "Both eyes are seen, but left and right are as from behind: they may be "
-                    "swapped. They are the person's own."
-                ),
+            remark(
+                Note.SIDES_SWAPPED,
+                "Both eyes are seen, but left and right are as from behind: they may be swapped. ",
             ),
         )
     return ()
@@ -186,7 +181,7 @@ def completed_clicks(
 
 def proposal_assumptions(
     clicks: Mapping[str, Click], completed: Mapping[str, Click]
-) -> tuple[Assumption, ...]:
+) -> tuple[Remark, ...]:
     """Report that points were proposed, and which."""
     proposed = [
         name
@@ -196,13 +191,11 @@ def proposal_assumptions(
     if not proposed:
         return ()
     return (
-        Assumption(
-            quantity="points",
-            value=", ".join(proposed),
-            reason=(
-                "Nobody clicked them: they are where a detector proposes them, and less sure than "
-                "clicks."
-            ),
+        assumed(
+            Note.POINTS_PROPOSED,
+            "Nobody clicked them: they are where a detector proposes them, and less sure than "
+            "clicks.",
+            where=proposed,
         ),
     )
 

@@ -30,7 +30,7 @@ from fitter.observation.picture_files import (
     read_exif,
     ready_decoder,
 )
-from fitter.remarks import FitWarning
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 LEAST_SIDE_PX = 64
 """A person under 64 pixels leaves nothing to fit."""
@@ -76,7 +76,7 @@ class DecodedPicture:
     height: int
     stored_width: int
     exif: ExifTags
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
     reduction: int = 1
 
 
@@ -117,28 +117,21 @@ def decode_picture(
         translucent = is_translucent(picture)
         pixels = np.asarray(as_srgb(_upright(picture, exif)))
     is_turned = exif.orientation in _SWAPPED
-    remarks: list[FitWarning] = []
+    remarks: list[Remark] = []
     if translucent:
         remarks.append(
-            FitWarning(
-                code="transparency-over-white",
-                message=(
-                    "The picture is partly transparent and was laid over white. If its opaque "
-                    "part is the person, post that as the mask."
-                ),
+            remark(
+                Note.TRANSPARENCY_OVER_WHITE,
+                "The picture is partly transparent and was laid over white.",
             )
         )
     if _has_other_shape(exif, stored_width, stored_height):
         remarks.append(
-            FitWarning(
-                code="other-shape",
-                message=(
-                    f"By its EXIF data the camera wrote {exif.pixel_x_dimension:.0f} x "
-                    f"{exif.pixel_y_dimension:.0f} pixels, and these are {stored_width} x "
-                    f"{stored_height}: another ratio. A squeezed picture gives wrong girths: send "
-                    "it as it was taken. If it was cropped, send the focal length in its own "
-                    "pixels."
-                ),
+            remark(
+                Note.OTHER_SHAPE,
+                f"By its EXIF data the camera wrote {exif.pixel_x_dimension:.0f} x "
+                f"{exif.pixel_y_dimension:.0f} pixels, and these are {stored_width} x "
+                f"{stored_height}: another ratio.",
             )
         )
     return DecodedPicture(

@@ -6,13 +6,13 @@ from typing import Protocol, runtime_checkable
 
 from fitter.errors import InvalidInputError
 from fitter.observation.picture_files import ExifTags
-from fitter.remarks import Assumption
 from fitter.render.camera import (
     ASSUMED_FOCAL_LENGTH_MM,
     FULL_FRAME_DIAGONAL_MM,
     focal_length_px_from_35mm,
 )
 from fitter.vocabulary.outcomes import FocalLengthSource
+from fitter.vocabulary.remarks import Note, Remark, assumed
 
 PLAUSIBLE_35MM = (5.0, 5000.0)
 """Range of real lenses in 35 mm equivalents: fisheyes start at 8, telescopes end at 3000."""
@@ -39,7 +39,7 @@ class FocalLength:
 
     pixels: float
     source: FocalLengthSource
-    assumptions: tuple[Assumption, ...] = ()
+    assumptions: tuple[Remark, ...] = ()
 
 
 def focal_length(
@@ -92,10 +92,11 @@ def focal_length(
         pixels=focal_length_px_from_35mm(ASSUMED_FOCAL_LENGTH_MM, width=width, height=height),
         source=FocalLengthSource.ASSUMED,
         assumptions=(
-            Assumption(
-                quantity="focal_length_35mm",
-                value=ASSUMED_FOCAL_LENGTH_MM,
-                reason="Neither the request nor the picture's EXIF data names a focal length.",
+            assumed(
+                Note.LENS_ASSUMED,
+                f"Neither the request nor the picture's EXIF data names a focal length; "
+                f"{ASSUMED_FOCAL_LENGTH_MM:.0f} mm in 35 mm equivalent were taken.",
+                where=("focal_length_35mm",),
             ),
         ),
     )

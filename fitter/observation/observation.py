@@ -34,7 +34,6 @@ from fitter.observation.pixels import (
     working_size,
 )
 from fitter.observation.subject import check_light
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.request import Click, SaidClothing, View
 from fitter.vocabulary.choices import (
@@ -46,6 +45,7 @@ from fitter.vocabulary.choices import (
     ViewKind,
 )
 from fitter.vocabulary.outcomes import FocalLengthSource
+from fitter.vocabulary.remarks import Remark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,8 +121,8 @@ class Observation:
     detected: bool | None
     hides_face: bool
     bodies: tuple[DetectedBody, ...] | None
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 def observe(view: View, *, max_pixels: int, detector: Detector | None = None) -> Observation:

@@ -4,10 +4,10 @@ import math
 from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
-from fitter.remarks import Assumption
 from fitter.request import LightGuess, Person
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
+from fitter.vocabulary.remarks import Note, Remark, assumed
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights assumed for people whose height is not known, as in paintings."""
@@ -88,14 +88,14 @@ def check_height(height_m: float | None) -> None:
         )
 
 
-def subject_height(person: Person) -> tuple[float, tuple[Assumption, ...]]:
+def subject_height(person: Person) -> tuple[float, tuple[Remark, ...]]:
     """The caller's height, or the mean of the gender together with the assumption."""
     if person.height_m is not None:
         return person.height_m, ()
     mean = MEAN_HEIGHT_M[person.gender]
-    assumed = Assumption(
-        quantity="height_m",
-        value=mean,
-        reason=f"No height was given; the mean of the gender ({person.gender.value}) was taken.",
+    said = assumed(
+        Note.HEIGHT_ASSUMED,
+        f"No height was given; the mean of the gender, {mean:.2f} m, was taken.",
+        where=("height_m",),
     )
-    return mean, (assumed,)
+    return mean, (said,)

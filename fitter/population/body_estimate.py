@@ -12,9 +12,9 @@ from fitter.measurement.anthropometry import measure
 from fitter.measurement.definitions import Measurement
 from fitter.population.conditional_shape import MeasuredPopulation, height_warnings
 from fitter.population.known import conditioned_population
-from fitter.remarks import FitWarning
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.remarks import Remark
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -40,7 +40,7 @@ class BodyEstimate:
     canonical_vertices: Vertices
     measurements: tuple[Measurement, ...]
     plausibility: float
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 def estimate_body(

@@ -30,8 +30,8 @@ from fitter.measurement.anthropometry import (
     measurement_jacobian,
     measurement_values,
 )
-from fitter.remarks import FitWarning
 from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 HELD_WITHIN = 0.01
 """Centimetres or kilograms within which exactly known measurements are met: a tenth of a
@@ -300,7 +300,7 @@ def _values_of_rows(
     return measurement_values(chosen, shape)
 
 
-def height_warnings(population: MeasuredPopulation, height_m: float) -> tuple[FitWarning, ...]:
+def height_warnings(population: MeasuredPopulation, height_m: float) -> tuple[Remark, ...]:
     """Warn of a height beyond the population's usual ones, and say by how much errors are wider."""
     row = population.names.index(STATURE)
     mean = float(population.shapes.mean[row])
@@ -311,13 +311,10 @@ def height_warnings(population: MeasuredPopulation, height_m: float) -> tuple[Fi
         return ()
     low, high = mean - USUAL_HEIGHT_SD * deviation, mean + USUAL_HEIGHT_SD * deviation
     return (
-        FitWarning(
-            code="unusual-height",
-            message=(
-                f"At {stature_cm:.0f} cm the body is extrapolated: 99.7 % of the people of the "
-                f"gender that bodies were learned from are {low:.0f} to {high:.0f} cm tall. "
-                f"Standard errors are {np.sqrt(extrapolation):.2f} times as wide. Check height "
-                "and gender."
-            ),
+        remark(
+            Note.UNUSUAL_HEIGHT,
+            f"At {stature_cm:.0f} cm the body is extrapolated: 99.7 % of the people of the "
+            f"gender that bodies were learned from are {low:.0f} to {high:.0f} cm tall. "
+            f"Standard errors are {np.sqrt(extrapolation):.2f} times as wide.",
         ),
     )

@@ -13,9 +13,9 @@ from fitter.observation.subject import subject_height
 from fitter.optimizer.free_space import held_shape
 from fitter.population.conditional_shape import MeasuredPopulation, height_warnings
 from fitter.population.known import conditioned_population
-from fitter.remarks import Assumption, FitWarning
 from fitter.request import KnownMeasurement, Person
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
+from fitter.vocabulary.remarks import Note, Remark, assumed
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,8 +48,8 @@ class KnownPerson:
     attributes: KnownAttributes
     given: tuple[str, ...]
     held: tuple[str, ...]
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
+    assumptions: tuple[Remark, ...]
+    warnings: tuple[Remark, ...]
 
 
 def known_person(
@@ -105,18 +105,16 @@ def _height_of(person: Person) -> dict[str, KnownMeasurement]:
 
 def _height(
     known: Mapping[str, KnownMeasurement], most_probable_m: float
-) -> tuple[float, tuple[Assumption, ...]]:
+) -> tuple[float, tuple[Remark, ...]]:
     stature = known.get(STATURE)
     if stature is None:
-        assumed = Assumption(
-            quantity="height_m",
-            value=most_probable_m,
-            reason=(
-                "No height was given; the most probable one of people of the gender with "
-                f"{', '.join(known)} as given was taken."
-            ),
+        said = assumed(
+            Note.HEIGHT_ASSUMED,
+            f"No height was given; the most probable one of people of the gender with "
+            f"{', '.join(known)} as given, {most_probable_m:.2f} m, was taken.",
+            where=("height_m",),
         )
-        return most_probable_m, (assumed,)
+        return most_probable_m, (said,)
     if stature.standard_error:
         return most_probable_m, ()
     return stature.value / CENTIMETRES_PER_METRE, ()

@@ -23,11 +23,11 @@ from jaxtyping import Bool, Float, Int, UInt8
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.errors import InvalidInputError
 from fitter.observation.maps import window_about
-from fitter.remarks import FitWarning
 from fitter.segmentation._band_kernels import link_band, mean_squared_difference
 from fitter.segmentation._max_flow_kernels import SOURCE, maximum_flow, push_to_neighbours
 from fitter.segmentation.colour_mixture import first_mixture, relearnt_mixture
 from fitter.segmentation.trimap import Trimap, TrimapLabel, body_size, is_uncertain
+from fitter.vocabulary.remarks import Note, Remark, remark
 
 CUTS = 3
 """Borders move little after the third cut: over 28 tri-maps of seven rendered people the masks
@@ -81,7 +81,7 @@ class Segmentation:
     """
 
     mask: Mask
-    warnings: tuple[FitWarning, ...]
+    warnings: tuple[Remark, ...]
 
 
 def segment(display: Image, labels: Trimap, preferred: GreyImage | None = None) -> Segmentation:
@@ -120,7 +120,7 @@ def segment(display: Image, labels: Trimap, preferred: GreyImage | None = None) 
     return Segmentation(mask=mask, warnings=(*_doubts(mask, labels), *border_warnings(mask)))
 
 
-def border_warnings(mask: Mask) -> tuple[FitWarning, ...]:
+def border_warnings(mask: Mask) -> tuple[Remark, ...]:
     """Warns if the silhouette, found or sent, shows a body cut off by the picture's border."""
     cut = [
         side
@@ -135,27 +135,23 @@ def border_warnings(mask: Mask) -> tuple[FitWarning, ...]:
     if not cut:
         return ()
     return (
-        FitWarning(
-            code="body-outside-picture",
-            message=(
-                f"The person reaches the {' and the '.join(cut)} border of the picture. What lies "
-                "outside is inferred from the rest."
-            ),
+        remark(
+            Note.BODY_OUTSIDE_PICTURE,
+            f"The person reaches the {' and the '.join(cut)} border of the picture. What lies "
+            "outside is inferred from the rest.",
         ),
     )
 
 
-def _doubts(mask: Mask, labels: Trimap) -> tuple[FitWarning, ...]:
+def _doubts(mask: Mask, labels: Trimap) -> tuple[Remark, ...]:
     band = mask[is_uncertain(labels)]
     if band.size == 0 or DECIDED_SHARE < band.mean() < 1.0 - DECIDED_SHARE:
         return ()
     return (
-        FitWarning(
-            code="segmentation-doubtful",
-            message=(
-                "The person could not be told from the background by colour; the silhouette is "
-                "little more than the first guess. Sending a mask would help."
-            ),
+        remark(
+            Note.SEGMENTATION_DOUBTFUL,
+            "The person could not be told from the background by colour; the silhouette is "
+            "little more than the first guess.",
         ),
     )
 

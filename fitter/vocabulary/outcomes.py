@@ -60,13 +60,6 @@ class SeenFrom(StrEnum):
     BETWEEN = "between"
 
 
-class Severity(StrEnum):
-    """What a finding means: measurements will be worse, or the picture is to be taken again."""
-
-    BLOCKS = "blocks"
-    HARMS = "harms"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbFacing:
     """Resolution of a limb's depth ambiguity (section 3.1).

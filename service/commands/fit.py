@@ -7,9 +7,9 @@ from typing import Final, TypeVar
 
 from api_schemas.fit import FitRequest
 from api_schemas.problems import Problem, field_problem
-from api_schemas.results import Assumption, Finding, FitResult, FitWarning
+from api_schemas.results import FitResult
 from fitter.errors import ModelFileError
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Remark, Severity
 from service.compute.kernels import settle_folders
 from service.compute.tasks import OPTIONS, Parts, UnusableInputError, child_setup, load_tasks
 from service.jobs.inputs import RESULT, SentPicture, named_pictures
@@ -171,12 +171,11 @@ def print_result(result: FitResult, *, truth: Mapping[str, float] | None = None)
             f"View {number}{shown}: {view.outcome}, {view.verdict}. "
             f"Silhouette overlap {view.silhouette_overlap:.3f}."
         )
-        _print_findings(view.findings)
-        _print_remarks(view.assumptions, view.warnings)
+        _print_remarks((*view.findings, *view.assumptions, *view.warnings))
     if result.agreement is not None:
         print(f"Agreement of the views {result.agreement:.2f}.")
     print(f"{result.evaluations} evaluations, {sum(result.stage_seconds.values()):.1f} s.")
-    _print_remarks(result.assumptions, result.warnings)
+    _print_remarks((*result.assumptions, *result.warnings))
 
 
 def _table(result: FitResult, truth: Mapping[str, float]) -> Iterator[str]:
@@ -195,17 +194,8 @@ def _table(result: FitResult, truth: Mapping[str, float]) -> Iterator[str]:
         yield line
 
 
-def _print_findings(findings: Iterable[Finding]) -> None:
+def _print_remarks(remarks: Iterable[Remark]) -> None:
     """What blocks is told by the outcome."""
-    for each in findings:
+    for each in remarks:
         if each.severity is not Severity.BLOCKS:
-            print(f"{each.severity} ({each.code}): {each.reason} {each.remedy}")
-
-
-def _print_remarks(assumptions: Iterable[Assumption], warnings: Iterable[FitWarning]) -> None:
-    for assumption in assumptions:
-        value = assumption.value
-        shown = f"{value:.4g}" if isinstance(value, float) else value
-        print(f"Assumed {assumption.quantity} = {shown}: {assumption.reason}")
-    for warning in warnings:
-        print(f"Warning ({warning.code}): {warning.message}")
+            print(f"{each.severity} ({each.code}): {each.text}")

@@ -30,13 +30,10 @@ from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
 from fitter.vocabulary.points import PointName
 from service.compute.fit_results import (
-    assumption_results,
     body_result,
     camera_result,
-    finding_results,
     measurement_results,
     rounded_parameters,
-    warning_results,
 )
 from service.compute.questions import (
     BODY,
@@ -200,8 +197,8 @@ def _initial_pose(
         points={name: _pixel(place) for name, place in initial.landmarks.items()},
         residual_px={name: float(value) for name, value in initial.residual_px.items()},
         limbs=initial.limbs,
-        assumptions=assumption_results(initial.assumptions),
-        warnings=warning_results(initial.warnings),
+        assumptions=initial.assumptions,
+        warnings=initial.warnings,
     )
 
 
@@ -218,15 +215,13 @@ def _points_proposal(found: Proposal) -> wire.PointsProposal:
         points=points,
         doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
         usable=checked.usable,
-        findings=finding_results(checked.findings),
-        not_checked=tuple(
-            wire.NotChecked(code=each.code.value, reason=each.reason) for each in checked.unchecked
-        ),
+        findings=checked.findings,
+        not_checked=checked.unchecked,
         seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
-        assumptions=assumption_results(found.assumptions),
-        warnings=warning_results(found.warnings),
+        assumptions=found.assumptions,
+        warnings=found.warnings,
     )
 
 
@@ -243,7 +238,7 @@ def _body_estimate(
         measurements=measurements,
         plausibility=round(estimate.plausibility, 4),
         body_model=str(model.header.get("checksum", "")),
-        warnings=warning_results(estimate.warnings),
+        warnings=estimate.warnings,
     )
 
 

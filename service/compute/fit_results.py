@@ -2,21 +2,17 @@
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from typing import cast
 
 import numpy as np
 
 from api_schemas import results as wire
-from fitter.capture.finding import Box, Finding
 from fitter.measurement.definitions import Measurement
 from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.result import FitResult, FitStage, FittedView
 from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.outcomes import Verdict
-from fitter.vocabulary.points import PointName
 
 _WORSE = (Verdict.PLAUSIBLE, Verdict.IMPLAUSIBLE, Verdict.NO_PERSON)
 
@@ -39,8 +35,8 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         verdict=worst.verdict,
         outcome_explanation=worst.outcome_explanation,
         agreement=None if result.alone is None else round(result.alone.agreement, 4),
-        assumptions=assumption_results(result.assumptions),
-        warnings=warning_results(result.warnings),
+        assumptions=result.assumptions,
+        warnings=result.warnings,
         differences=result.differences,
         stages=tuple(_stage(stage) for stage in result.stages),
         stage_seconds={name: round(each, 3) for name, each in result.stage_seconds.items()},
@@ -64,10 +60,10 @@ def _view(view: FittedView, part_names: Sequence[str]) -> wire.ViewResult:
         silhouette_overlap=round(found.silhouette_overlap, 4),
         tilt=None if person.tilt is None else _tilt(person.tilt),
         limb_facing=view.limb_facing,
-        findings=finding_results(view.findings),
+        findings=view.findings,
         clothing=tuple(_worn(each) for each in found.clothing),
-        assumptions=assumption_results(view.assumptions),
-        warnings=warning_results(view.warnings),
+        assumptions=view.assumptions,
+        warnings=view.warnings,
     )
 
 
@@ -92,46 +88,6 @@ def _worn(each: WornRegion) -> wire.WornRegion:
 
 def _centimetres(metres: float | None) -> float | None:
     return None if metres is None else round(100.0 * metres, 1)
-
-
-def assumption_results(assumptions: Sequence[Assumption]) -> tuple[wire.Assumption, ...]:
-    """Translate what was assumed."""
-    return tuple(
-        wire.Assumption(
-            quantity=each.quantity,
-            value=round(each.value, 4) if isinstance(each.value, float) else each.value,
-            reason=each.reason,
-        )
-        for each in assumptions
-    )
-
-
-def warning_results(warnings: Sequence[FitWarning]) -> tuple[wire.FitWarning, ...]:
-    """Translate warnings."""
-    return tuple(wire.FitWarning(code=each.code, message=each.message) for each in warnings)
-
-
-def finding_results(findings: Sequence[Finding]) -> tuple[wire.Finding, ...]:
-    """Translate what was found; boxes to a hundredth of a pixel."""
-    return tuple(
-        wire.Finding(
-            code=found.code.value,
-            severity=found.severity,
-            reason=found.reason,
-            remedy=found.remedy,
-            points=tuple(cast("PointName", name) for name in found.points),
-            box=rounded_box(found.box),
-        )
-        for found in findings
-    )
-
-
-def rounded_box(box: Box | None) -> Box | None:
-    """A box to a hundredth of a pixel."""
-    if box is None:
-        return None
-    left, top, right, bottom = (round(each, 2) for each in box)
-    return left, top, right, bottom
 
 
 def camera_result(camera: Camera) -> wire.CameraResult:

@@ -84,7 +84,7 @@ def test_measurements_are_those_of_a_man(fit):
 
 def test_what_was_assumed_is_said(fit):
     result, _ = fit
-    assert "focal_length_35mm" in {a["quantity"] for a in result["views"][0]["assumptions"]}
+    assert "lens-assumed" in {a["code"] for a in result["views"][0]["assumptions"]}
 
 
 def test_the_light_comes_from_the_upper_left_as_painted(fit):

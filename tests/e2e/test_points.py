@@ -31,8 +31,8 @@ def fitted(client: httpx.Client, image: bytes, **view: object) -> dict:
 def assumed(result: dict) -> list[str]:
     """Names of the points that the result says were proposed."""
     (view,) = result["views"]
-    said = [each["value"] for each in view["assumptions"] if each["quantity"] == "points"]
-    return said[0].split(", ") if said else []
+    said = [each["where"] for each in view["assumptions"] if each["code"] == "points-proposed"]
+    return said[0] if said else []
 
 
 @pytest.fixture(scope="module")

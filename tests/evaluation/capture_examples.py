@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.detection.detector import Detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.capture_forms import (
     Picture,
     Source,
@@ -94,7 +94,7 @@ def said_of(example: Example, detector: Detector) -> list[str]:
         warnings=(),
     )
     capture = capture_of(decoded, example.question, detector=detector)
-    return [finding.code.value for finding in check_capture(capture).findings]
+    return [finding.code for finding in check_capture(capture).findings]
 
 
 def _good(title: str, name: str) -> Example:

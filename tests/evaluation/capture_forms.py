@@ -8,9 +8,9 @@ import numpy as np
 from jaxtyping import UInt8
 
 from fitter.arrays import Mask
-from fitter.capture.finding import Code
 from fitter.fits.capture_check import CaptureQuestion
 from fitter.observation.pixels import WORKING_PIXELS, display_from_linear, linear_from_display
+from fitter.vocabulary.remarks import Code
 
 Picture = UInt8[np.ndarray, "h w 3"]
 

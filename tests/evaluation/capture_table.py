@@ -9,12 +9,12 @@ import numpy as np
 
 from fitter.capture.capture import Capture
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.capture_forms import Form, Picture, Source, spoilt_forms
 from tests.evaluation.capture_truth import variants_of
 from tests.evaluation.cases import CASES
@@ -127,7 +127,7 @@ def capture_lines(judged: Sequence[JudgedFinding]) -> list[str]:
         right = [each for each in of_code if not each.wrong]
         lines.append(f"{code.value:24s}{_count(wrong):>12s}{_count(right):>16s}")
     failures = [each for each in judged if each.found is not each.wrong]
-    by_form = Counter((each.wrong, each.code.value, each.form) for each in failures)
+    by_form = Counter((each.wrong, each.code, each.form) for each in failures)
     for (wrong, code, form), count in by_form.items():
         lines.append(f"{'missed' if wrong else 'false'} {count}: {code}, {form}")
     return lines

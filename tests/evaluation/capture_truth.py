@@ -8,10 +8,10 @@ import numpy as np
 
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code
 from fitter.capture.framing import NEAREST_M
 from fitter.capture.posture import free_share
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.joint_figures import part_of_joint
 from tests.evaluation.scene import Series
 from tests.evaluation.true_picture import TruePicture

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import decode_picture
 from fitter.vocabulary.choices import BodyRegion, Covering
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.dressed import dressed_names, garments
 from tests.evaluation.foreign import foreign_half, foreign_names

@@ -20,7 +20,7 @@ from fitter.fits.pipeline import fit
 from fitter.observation.pixels import display_from_linear, linear_from_display, luminance_of
 from fitter.segmentation.skin_colour import nearest_of
 from fitter.vocabulary.choices import BodyRegion, Covering, Cues
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Severity
 from tests.evaluation.cases import CASES
 from tests.evaluation.clicks import rendering
 from tests.evaluation.landmark_points import packaged_model, rest_landmarks
@@ -228,7 +228,7 @@ def covered_fit(asked: Covered) -> CoveredFit:
         },
         worn={each.region: each.kind for each in result.views[0].found.clothing},
         findings=tuple(
-            each.code.value
+            each.code
             for each in result.found.findings
             if each.severity in (Severity.HARMS, Severity.BLOCKS)
         ),

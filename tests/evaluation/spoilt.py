@@ -18,7 +18,7 @@ from fitter.observation.decoding import decode_picture
 from fitter.request import Click, FitRequest, KnownMeasurement
 from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import STATURE
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Severity
 from tests.evaluation.capture_forms import Source, Spoil, cropped, exposed
 from tests.evaluation.capture_table import POSTURES
 from tests.evaluation.cases import CASES
@@ -160,7 +160,7 @@ def measured(asked: Asked) -> Measured:
             if (error := found[key].standard_error) is not None
         },
         findings=tuple(
-            each.code.value
+            each.code
             for each in result.found.findings
             if each.severity in (Severity.HARMS, Severity.BLOCKS)
         ),

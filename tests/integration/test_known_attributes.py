@@ -65,8 +65,8 @@ def test_without_a_height_the_most_probable_one_is_held_and_said():
     known = sample_request(inseam=truth["inseam"], weight=truth["weight"])
     request = changed(known, height_m=None)
     result = fit(request)
-    (height,) = (each for each in result.assumptions if each.quantity == "height_m")
-    assert height.value == result.found.height_m
+    (height,) = (each for each in result.assumptions if each.where == ("height_m",))
+    assert f"{result.found.height_m:.2f} m" in height.reason
     assert "inseam" in height.reason
     assert values(result)["inseam"] == pytest.approx(truth["inseam"], abs=0.01)
     assert values(result)["weight"] == pytest.approx(truth["weight"], abs=0.01)

@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.request import Clothing, Cues
 from fitter.result import FitResult
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import CaseFiles, read_case
 from tests.evaluation.suite import fit_request

@@ -2,12 +2,12 @@
 
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.request import FitRequest, Person, View
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender, SegmentationKind, ViewKind
-from fitter.vocabulary.outcomes import Outcome, Severity, Verdict
+from fitter.vocabulary.outcomes import Outcome, Verdict
+from fitter.vocabulary.remarks import Code, Severity
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.nonsense import DONORS, nonsense
@@ -54,7 +54,7 @@ def test_what_is_no_person_gets_no_measurements(kind, with_detector):
 def test_noise_that_points_are_put_on_is_said_to_show_nobody():
     # Its colours change everywhere, so that the evidence alone contradicts nothing.
     result = fitted("noise", with_detector=True)
-    (found,) = [each for each in result.found.findings if each.code is Code.NOBODY_FOUND]
+    (found,) = [each for each in result.found.findings if each.code == Code.NOBODY_FOUND]
     assert found.severity is Severity.HARMS
     assert {each.code for each in result.found.findings} > {Code.NOBODY_FOUND}
     assert result.found.is_plausible
@@ -65,7 +65,7 @@ def test_who_insists_gets_measurements_and_a_warning():
     assert result.found.verdict is Verdict.NO_PERSON
     assert len(result.measurements) > 10
     (warning,) = [each for each in result.views[0].warnings if each.code == "no-person"]
-    assert result.found.outcome_explanation in warning.message
+    assert result.found.outcome_explanation in warning.reason
 
 
 @pytest.mark.slow

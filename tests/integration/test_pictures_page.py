@@ -9,18 +9,14 @@ import pytest
 
 from api_schemas import questions as wire
 from fitter.capture import framing, people, picture_quality, posture
-from fitter.capture.finding import Code
 from fitter.fits import reporting
 from fitter.fits.error_widening import HARM
 from fitter.observation import decoding
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
-from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code, Note
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()
-
-MAKERS = ("fitter/applications", "service/compute/products")
-"""Where products warn."""
 
 
 def rows(heading: str) -> dict[str, str]:
@@ -61,19 +57,6 @@ def codes_of(call: str, files: Iterator[Path]) -> set[str]:
     return found
 
 
-def proposal_codes() -> set[str]:
-    """Those of the table in the module, and of the warning made by itself."""
-    file = ROOT / "fitter" / "fits" / "proposal.py"
-    keys = {
-        str(key.value)
-        for node in ast.walk(ast.parse(file.read_text()))
-        if isinstance(node, ast.Dict)
-        for key in node.keys
-        if isinstance(key, ast.Constant) and "-" in str(key.value)
-    }
-    return keys | codes_of("FitWarning", iter([file]))
-
-
 def test_the_checks_are_those_of_the_code_in_its_order():
     assert sorted(CHECKS) == sorted(code.value for code in Code)
     assert [code for code in CHECKS if code not in BY_FITS_ALONE] == [
@@ -84,7 +67,7 @@ def test_the_checks_are_those_of_the_code_in_its_order():
 def test_what_harms_widens_errors_as_the_code_does():
     assert set(HARMS) == {code.value for code in HARM}
     for code, harm in HARM.items():
-        factors = [float(each) for each in HARMS[code.value].strip(" |").split(" | ")]
+        factors = [float(each) for each in HARMS[code].strip(" |").split(" | ")]
         assert factors == [harm.chest, harm.waist, harm.hip, harm.weight], code
 
 
@@ -125,7 +108,7 @@ def test_they_are_those_of_the_wire():
     ],
 )
 def test_thresholds_are_those_of_the_code(code: Code, thresholds: tuple[float, ...]):
-    numbers = [float(each) for each in re.findall(r"\d+(?:\.\d+)?", CHECKS[code.value])]
+    numbers = [float(each) for each in re.findall(r"\d+(?:\.\d+)?", CHECKS[code])]
     assert set(thresholds) <= set(numbers)
 
 
@@ -150,27 +133,14 @@ def test_a_check_that_may_block_says_when():
     modules = {"people": 4, "framing": 2, "picture_quality": 1, "posture": 3}
     for file in sources("fitter/capture"):
         named = file.read_text().count("Severity.BLOCKS")
-        if file.stem not in ("finding", "checking"):
+        if file.stem not in ("checking",):
             assert named == modules.get(file.stem, 0), file.name
 
 
-def test_warnings_of_fits_are_those_of_the_code():
-    of_proposals = ROOT / "fitter" / "fits" / "proposal.py"
-    made = {
-        file
-        for file in sources("fitter", "service")
-        if file != of_proposals and not any(file.is_relative_to(ROOT / folder) for folder in MAKERS)
-    }
-    verdicts = {each.value.replace("_", "-") for each in Verdict if each is not Verdict.PLAUSIBLE}
-    assert set(OF_FITS) == codes_of("FitWarning", iter(sorted(made))) | verdicts
-
-
-def test_warnings_of_proposals_are_those_of_the_code():
-    assert set(OF_POINTS) == proposal_codes()
-
-
-def test_warnings_of_products_are_those_of_the_code():
-    assert set(OF_PRODUCTS) == codes_of("FitWarning", sources(*MAKERS)) - set(OF_FITS)
+def test_warnings_are_those_of_the_catalogue():
+    of_no_warning = {"height-assumed", "lens-assumed", "points-proposed"}
+    told = {*OF_FITS, *OF_POINTS, *OF_PRODUCTS}
+    assert told == {each.value for each in Note} - of_no_warning | {"other-view"}
 
 
 def test_the_figures_of_warnings_are_those_of_the_code():

@@ -6,7 +6,6 @@ from functools import cache
 import pytest
 
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.fits.pipeline import fit
@@ -15,6 +14,7 @@ from fitter.observation.decoding import decode_picture
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender
 from fitter.vocabulary.outcomes import Severity, Verdict
+from fitter.vocabulary.remarks import Code
 from tests.one_picture import one_picture
 from tests.shared_data import SHARED_DATA, needs_shared
 

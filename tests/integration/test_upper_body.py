@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from fitter.body.model import regress
-from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.request import Cues
 from fitter.result import FitResult
-from fitter.vocabulary.outcomes import Severity, Verdict
+from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code, Severity
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import CaseFiles, read_case
 from tests.evaluation.landmark_points import packaged_model
@@ -40,7 +40,7 @@ def cut_off(files: CaseFiles) -> FitResult:
 
 def test_the_trunk_is_measured_and_the_finding_widens_it(files, cut_off):
     assert cut_off.found.verdict is Verdict.PLAUSIBLE
-    (found,) = [each for each in cut_off.views[0].findings if each.code is Code.CUT_OFF]
+    (found,) = [each for each in cut_off.views[0].findings if each.code == Code.CUT_OFF]
     assert found.severity is Severity.HARMS
     measured = {each.name: each for each in cut_off.measurements}
     for name in ("chest_girth", "waist_girth_smallest", "hip_girth", "weight"):

@@ -13,7 +13,6 @@ from service.demo_data.sample import load_sample
 from tests.readme import block
 
 NAMES = [
-    "Assumption",
     "BodyEstimate",
     "BodyParameters",
     "Camera",
@@ -26,7 +25,6 @@ NAMES = [
     "FitRequest",
     "FitResult",
     "FitStage",
-    "FitWarning",
     "FittedPerson",
     "FittedView",
     "FitterError",
@@ -48,6 +46,7 @@ NAMES = [
     "PictureFit",
     "Progress",
     "Reflectance",
+    "Remark",
     "Stage",
     "StageBody",
     "Verdict",

@@ -2,7 +2,6 @@
 
 from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import AnimationOptions, AnimationResult
-from api_schemas.results import FitWarning
 from fitter.applications.animation import (
     ChosenMotion,
     animate,
@@ -40,9 +39,7 @@ def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[An
             skin_largest_error_mm=made.skin_largest_error_mm,
             sliding_mm=made.sliding_mm,
             travelled_m=made.travelled_m,
-            warnings=tuple(
-                FitWarning(code=each.code, message=each.message) for each in made.warnings
-            ),
+            warnings=made.warnings,
         ),
         files=dict(made.files) | texture_files(texture),
     )

@@ -1,7 +1,7 @@
 """A page to print: one HTML file with its pictures in it, and no scripts."""
 
 import base64
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Final
 
@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import UInt8
 
 from api_schemas.products.documents import PrintOptions, PrintResult
-from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
+from api_schemas.results import FitResult, Measurement
 from fitter.export.views import MARGIN_SHARE
 from fitter.vocabulary.measurements import CHIEF
 from service.compute.products.finished_fit import FinishedFit, Made, Report
@@ -176,19 +176,10 @@ def _row(each: Measurement) -> str:
 
 def _remarks(result: FitResult) -> str:
     """What was assumed, and what is to be looked at, of the fit and of each picture."""
-    said = [*_of(result.assumptions, result.warnings)]
+    said = [each.text for each in (*result.assumptions, *result.warnings)]
     for number, view in enumerate(result.views, start=1):
-        findings = [f"{each.reason} {each.remedy}" for each in view.findings]
-        of_view_alone = [*findings, *_of(view.assumptions, view.warnings)]
         where = f"Picture {number}: " if len(result.views) > 1 else ""
-        said += [f"{where}{each}" for each in of_view_alone]
+        of_view = (*view.findings, *view.assumptions, *view.warnings)
+        said += [f"{where}{each.text}" for each in of_view]
     items = "".join(f"<li>{escape(each)}</li>" for each in dict.fromkeys(said))
     return f"<h2>Remarks</h2><ul>{items}</ul>" if items else ""
-
-
-def _of(assumptions: Iterable[Assumption], warnings: Iterable[FitWarning]) -> Iterable[str]:
-    for each in assumptions:
-        value = f"{each.value:g}" if isinstance(each.value, float) else each.value
-        yield f"Assumed: {each.quantity.replace('_', ' ')} {value}. {each.reason}"
-    for each in warnings:
-        yield each.message

@@ -4,7 +4,7 @@ import httpx
 import pytest
 from playwright.sync_api import Browser, expect
 
-from fitter.capture.finding import Code
+from fitter.vocabulary.remarks import Code
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.visitor import DESK, PHONE, Visitor
 from tests.evaluation.capture_examples import WITHOUT_EXAMPLE

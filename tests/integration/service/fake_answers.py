@@ -19,15 +19,15 @@ from api_schemas.questions import (
     PointsProposal,
     PointsRequest,
 )
-from api_schemas.results import BodyResult, CameraResult, Finding, Measurement
+from api_schemas.results import BodyResult, CameraResult, Measurement
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import (
     FacingSource,
     FocalLengthSource,
     LimbFacing,
     SeenFrom,
-    Severity,
 )
+from fitter.vocabulary.remarks import Code, Severity, remark
 from service.compute.questions import (
     BODY,
     CONVERSION,
@@ -48,14 +48,7 @@ GLB = b"glTF" + bytes(range(256))
 MASK = b"\x89PNG" + bytes(range(64))
 # Processes that compute are left variables of Python's.
 GATE = "PYTHON_FAKE_ANSWERS_GATE"
-NOBODY = Finding(
-    code="nobody-found",
-    severity=Severity.BLOCKS,
-    reason="0 people were found.",
-    remedy="Have one in the picture.",
-    points=(),
-    box=None,
-)
+NOBODY = remark(Code.NOBODY_FOUND, "0 people were found.", severity=Severity.BLOCKS)
 KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 

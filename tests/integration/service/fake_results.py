@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from api_schemas.fit import FitRequest
 from api_schemas.person import Person, UncertainMeasurement
 from api_schemas.results import (
-    Assumption,
     BodyResult,
     CameraResult,
     FitResult,
@@ -15,6 +14,7 @@ from api_schemas.results import (
 )
 from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
+from fitter.vocabulary.remarks import Note, assumed
 from service.jobs.inputs import BODY, BODY_POSED, OVERLAY, PERSON, SEGMENTATION, of_view
 
 BODY_RESULT = BodyResult(
@@ -38,7 +38,7 @@ def fit_result(asked: FitRequest) -> FitResult:
         verdict=Verdict.PLAUSIBLE,
         outcome_explanation="The energy stopped decreasing.",
         agreement=0.5 if len(asked.views) > 1 else None,
-        assumptions=(Assumption(quantity="height_m", value=1.7, reason="Unknown."),),
+        assumptions=(assumed(Note.HEIGHT_ASSUMED, "Unknown.", where=("height_m",)),),
         warnings=(),
         differences=(),
         stages=(Stage(name="SE", energies={"total": 2.0}, measurements={"waist_girth": 81.0}),),
@@ -76,7 +76,7 @@ def _view(kind: ViewKind | None) -> ViewResult:
         limb_facing=(),
         findings=(),
         clothing=(),
-        assumptions=(Assumption(quantity="focal_length_px", value=700.0, reason="Unknown."),),
+        assumptions=(assumed(Note.LENS_ASSUMED, "Unknown.", where=("focal_length_35mm",)),),
         warnings=(),
     )
 

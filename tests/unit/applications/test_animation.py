@@ -219,7 +219,7 @@ def test_a_clip_that_is_too_long_is_cut_and_says_so(body):
     assert len(found.motion.poses) == MOST_FRAMES
     (warning,) = found.warnings
     assert warning.code == "clip-cut"
-    assert "12.00 of 13.00 s" in warning.message
+    assert "12.00 of 13.00 s" in warning.reason
 
 
 def test_what_is_odd_in_a_file_is_told_with_what_is_in_doubt(body):
@@ -251,7 +251,7 @@ def test_a_walk_that_is_too_long_is_cut_and_says_so(body):
     assert len(found.motion.poses) == MOST_FRAMES
     (warning,) = found.warnings
     assert warning.code == "clip-cut"
-    assert " of 20." in warning.message or " of 19.9" in warning.message
+    assert " of 20." in warning.reason or " of 19.9" in warning.reason
 
 
 def walked(body, roots=None):

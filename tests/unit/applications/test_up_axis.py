@@ -36,8 +36,8 @@ def test_a_dance_on_the_floor_does_not_hide_that_most_frames_are_upright():
     assert found.axis == "y"
     (warning,) = found.warnings
     assert warning.code == "up-uncertain"
-    assert "60%" in warning.message
-    assert "`up`" in warning.message
+    assert "60%" in warning.reason
+    assert "`up`" in warning.remedy
 
 
 def test_a_body_without_extent_gives_an_axis_and_a_doubt():

@@ -9,6 +9,7 @@ from fitter.capture.capture import Capture
 from fitter.detection.detector import DetectedBody, DetectedSlants, LimbSlant
 from fitter.detection.person_detector import DetectedPerson
 from fitter.request import Click
+from fitter.vocabulary.remarks import Remark, Severity
 
 WIDTH, HEIGHT = 400, 640
 
@@ -110,3 +111,11 @@ def picture_of(mask: np.ndarray) -> np.ndarray:
     """(h, w, 3) somebody of skin colour before a grey wall."""
     shown = np.where(mask[..., None] > 0.5, np.array([190, 140, 110]), np.array([70, 80, 90]))
     return shown.astype(np.uint8)
+
+
+def is_finding(said: Remark | None) -> bool:
+    return said is not None and said.is_finding
+
+
+def is_unchecked(said: Remark | None) -> bool:
+    return said is not None and said.severity is Severity.UNCHECKED

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.vocabulary.choices import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Code, Severity
 from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
 
 

@@ -4,11 +4,18 @@ import math
 
 import pytest
 
-from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.posture import announced_view, facing, seen_from
 from fitter.vocabulary.choices import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
-from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Code, Severity
+from tests.unit.capture.made_up import (
+    FRONT,
+    by_points_alone,
+    capture,
+    is_finding,
+    is_unchecked,
+    person,
+)
 
 
 def turned(degrees: float) -> dict[str, tuple[float, float]]:
@@ -69,11 +76,11 @@ def test_a_view_other_than_was_said_is_told(view, degrees, severity):
     if severity is None:
         assert found is None
         return
-    assert isinstance(found, Finding)
+    assert found is not None
     assert (found.code, found.severity) == (Code.OTHER_VIEW, severity)
 
 
 def test_points_alone_tell_the_view_and_half_a_trunk_does_not():
-    assert isinstance(announced_view(by_points_alone(view=ViewKind.SIDE)), Finding)
+    assert is_finding(announced_view(by_points_alone(view=ViewKind.SIDE)))
     half = {name: at for name, at in by_points_alone().points.items() if "left" in name}
-    assert isinstance(announced_view(by_points_alone(view=ViewKind.SIDE, points=half)), Unchecked)
+    assert is_unchecked(announced_view(by_points_alone(view=ViewKind.SIDE, points=half)))

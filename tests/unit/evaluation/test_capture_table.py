@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.fits.capture_check import CaptureQuestion
 from fitter.observation.pixels import linear_from_display
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.capture_forms import (
     Source,
     cropped,

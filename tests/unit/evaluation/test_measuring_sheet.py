@@ -7,8 +7,8 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
+from fitter.vocabulary.remarks import Code
 from tests.evaluation.capture_examples import WITHOUT_EXAMPLE, examples
 from tests.evaluation.cases import CASES
 from tests.evaluation.measuring_sheet import (
@@ -40,7 +40,7 @@ def said(shown):
 
 
 def test_the_checks_find_in_every_example_what_it_is_an_example_of(shown, said):
-    meant = [[] if each.code is None else [each.code.value] for each in shown]
+    meant = [[] if each.code is None else [each.code] for each in shown]
     assert said == meant
 
 
@@ -78,7 +78,7 @@ def test_the_page_names_the_same_examples_in_the_same_order(shown):
     captions = dict(re.findall(r'"?([\w-]+)"?: \{ what: "([^"]+)"', CAPTIONS.read_text()))
     named = [(None, captions[name]) for name in good] + [(code, captions[code]) for code in bad]
     assert named == [
-        (each.code and each.code.value, each.title[0].lower() + each.title[1:]) for each in shown
+        (each.code and each.code, each.title[0].lower() + each.title[1:]) for each in shown
     ]
     size = re.search(r"const WIDTH = (\d+);\nconst HEIGHT = (\d+);", source)
     assert size is not None

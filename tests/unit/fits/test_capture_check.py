@@ -13,7 +13,8 @@ from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.proposal import Proposal, propose
 from fitter.request import Click
 from fitter.vocabulary.choices import Gender, ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Severity
 from service.demo_data.sample import load_sample
 from tests.unit.observation.pictures import encode, noise
 
@@ -35,7 +36,7 @@ def checked(picture: np.ndarray, **said: object) -> Proposal:
 
 
 def codes(check: Proposal) -> list[str]:
-    return [each.code.value for each in check.checked.findings]
+    return [each.code for each in check.checked.findings]
 
 
 def spoilt(how: str) -> np.ndarray:
@@ -77,7 +78,7 @@ def spoilt(how: str) -> np.ndarray:
 def test_what_is_done_to_a_good_picture_is_found(how, code, severity):
     assert codes(checked(sample(), view=ViewKind.FRONT)) == []
     check = checked(spoilt(how))
-    found = {each.code.value: each for each in check.checked.findings}
+    found = {each.code: each for each in check.checked.findings}
     assert code in found
     assert found[code].severity is severity
     assert check.checked.usable is (severity is not Severity.BLOCKS)

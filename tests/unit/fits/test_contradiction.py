@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.fits.plausibility import Plausibility
 from fitter.fits.verdict import contradiction
 from fitter.result import VERDICT_EXPLANATIONS
-from fitter.vocabulary.outcomes import Severity, Verdict
+from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code, Severity
 
 PERSON = Plausibility(
     overlap=0.94,

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import CaptureQuestion
@@ -16,6 +15,7 @@ from fitter.request import FitRequest, KnownMeasurement, View
 from fitter.result import FitResult, before_shading
 from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
@@ -208,9 +208,9 @@ def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one):
     turned = fit(asked(STANDING, ViewKind.SIDE))
     (warning,) = turned.warnings
     assert warning.code == "other-view"
-    assert warning.message.startswith("The picture is said to be from the side")
-    said = [each.message for each in (*result.warnings, *turned.warnings)]
-    said += [each.message for view in turned.views for each in view.warnings]
+    assert warning.reason.startswith("The picture is said to be from the side")
+    said = [each.reason for each in (*result.warnings, *turned.warnings)]
+    said += [each.reason for view in turned.views for each in view.warnings]
     assert not any("views" in each for each in said)
 
 
@@ -281,7 +281,7 @@ def test_a_weight_that_the_pictures_contradict_is_named(names):
     result = fit(changed(together(*map(asked, names)), measurements=known))
     (warning,) = result.warnings
     assert warning.code == "given-contradicted"
-    assert warning.message.startswith("weight was given as 45.0 kg, but")
+    assert warning.reason.startswith("weight was given as 45.0 kg, but")
 
 
 def test_a_view_from_another_side_than_announced_is_named():

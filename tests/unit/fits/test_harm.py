@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code, Finding
 from fitter.fits.equipment import prepared_model
 from fitter.fits.error_widening import HARM, widened_covariance
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.joint_measurements import joint_measurements
 from fitter.vocabulary.choices import Gender
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity, remark
 
 BODY = prepared_model(Gender.FEMALE).measuring
 SIZE = len(BODY.canonical.derivative)
@@ -17,15 +16,15 @@ SHAPE = np.zeros(SIZE)
 COVARIANCE = np.diag([0.0, *np.linspace(0.1, 0.3, SIZE - 1)])
 
 
-def found(code: Code, severity: Severity = Severity.HARMS) -> Finding:
-    return Finding(code=code, severity=severity, reason="It is.", remedy="Do.")
+def found(code: Code, severity: Severity = Severity.HARMS) -> Remark:
+    return remark(code, "It is.", severity=severity)
 
 
-def covariance(*pictures: list[Finding], given: tuple[str, ...] = ()) -> np.ndarray:
+def covariance(*pictures: list[Remark], given: tuple[str, ...] = ()) -> np.ndarray:
     return widened_covariance(COVARIANCE, BODY, SHAPE, pictures, given)
 
 
-def grown(*pictures: list[Finding], given: tuple[str, ...] = ()) -> dict[str, float]:
+def grown(*pictures: list[Remark], given: tuple[str, ...] = ()) -> dict[str, float]:
     """Standard errors as shares of those without findings."""
     before, after = (
         joint_measurements(BODY, SHAPE, shape_covariance=each, given=given)

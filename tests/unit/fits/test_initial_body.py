@@ -103,13 +103,13 @@ def test_the_focal_length_is_the_callers_or_assumed(request_of_standing_person):
     assert (said.focal_length_source, said.assumptions) == (FocalLengthSource.CALLER, ())
     assumed = found(changed(request_of_standing_person, focal_length_px=None))
     assert assumed.focal_length_source is FocalLengthSource.ASSUMED
-    assert [each.quantity for each in assumed.assumptions] == ["focal_length_35mm"]
+    assert [each.code for each in assumed.assumptions] == ["lens-assumed"]
 
 
 def test_an_unknown_height_is_assumed_and_said_so(request_of_standing_person):
     initial = found(changed(request_of_standing_person, height_m=None))
     assert initial.height_m == 1.65
-    assert "height_m" in {assumption.quantity for assumption in initial.assumptions}
+    assert "height-assumed" in {each.code for each in initial.assumptions}
 
 
 def test_a_head_alone_is_refused(request_of_standing_person):

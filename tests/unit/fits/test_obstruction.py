@@ -5,10 +5,9 @@ import re
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code, Finding
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.verdict import LEAST_OFF_M2, nearest_parts, obstruction
-from fitter.vocabulary.outcomes import Severity
+from fitter.vocabulary.remarks import Code, Remark, Severity
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, WIDTH, boxes
 
 LEFT, RIGHT = 130, 190
@@ -33,20 +32,17 @@ def part_of_triangle(*, arms: bool = False) -> np.ndarray:
     return np.clip(np.searchsorted(BORDERS, middles, side="right") - 1, 0, len(BORDERS) - 2)
 
 
-def told(
-    mask: np.ndarray, doubted: np.ndarray, *, scale: float = 1.0, arms: bool = False
-) -> Finding | None:
+def told(mask: np.ndarray, doubted: np.ndarray, *, arms: bool = False) -> Remark | None:
     found = obstruction(
         silhouette_evidence(mask).doubting(doubted),
         RENDERING,
         nearest_parts(RENDERING, part_of_triangle(arms=arms), PART_NAMES),
-        scale=scale,
     )
     assert len(found) <= 1
     return found[0] if found else None
 
 
-def shares(finding: Finding) -> dict[str, int]:
+def shares(finding: Remark) -> dict[str, int]:
     return {part: int(share) for share, part in re.findall(r"(\d+) % at the (\w+)", finding.reason)}
 
 
@@ -66,14 +62,6 @@ def test_a_thing_before_the_hips_is_told_with_the_parts_that_it_hides():
     assert found["hips"] == 100
     assert found["trunk"] == pytest.approx(25, abs=2)
     assert found["thighs"] == pytest.approx(12, abs=2)
-    assert finding.box == (LEFT, 90.0, RIGHT, 125.0)
-
-
-def test_the_place_is_told_in_pixels_of_the_original():
-    thing = block(90, 125, 100, 220)
-    finding = told(BODY | thing, block(90, 125, 90, 230), scale=0.5)
-    assert finding is not None
-    assert finding.box == (2.0 * LEFT, 180.0, 2.0 * RIGHT, 250.0)
 
 
 def test_what_sticks_out_less_than_the_bound_is_not_told():

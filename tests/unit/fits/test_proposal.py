@@ -41,7 +41,7 @@ def two_people() -> bytes:
 
 
 def codes(proposal: Proposal) -> list[str]:
-    findings = [each.code.value for each in proposal.checked.findings]
+    findings = [each.code for each in proposal.checked.findings]
     return findings + [each.code for each in proposal.warnings]
 
 

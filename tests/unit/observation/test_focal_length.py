@@ -57,7 +57,7 @@ def test_an_unknown_focal_length_is_assumed_and_said_so():
     found = resolve(ExifTags())
     assert found.pixels == pytest.approx(50 / 43.27 * 5000)
     assert found.source is FocalLengthSource.ASSUMED
-    assert [assumption.quantity for assumption in found.assumptions] == ["focal_length_35mm"]
+    assert [each.code for each in found.assumptions] == ["lens-assumed"]
 
 
 def test_implausible_exif_is_passed_over():

@@ -58,7 +58,7 @@ def test_a_small_picture_is_taken_as_it_is():
     )
     assert dict(observation.clicks) == standing_clicks()
     assert observation.focal_length_source is FocalLengthSource.ASSUMED
-    assert [assumption.quantity for assumption in observation.assumptions] == ["focal_length_35mm"]
+    assert [each.code for each in observation.assumptions] == ["lens-assumed"]
     assert observation.mask is None
     assert observation.warnings == ()
 

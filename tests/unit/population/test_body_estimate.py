@@ -179,7 +179,7 @@ def test_beyond_usual_heights_errors_are_wider_and_a_warning_says_so(gender, sta
     conditioned = conditioned_population(people, known)
     wider = np.sqrt(height_extrapolation(conditioned.shape[0]))
     assert wider > 1.25
-    assert (warning.code, f"{wider:.2f} times" in warning.message) == ("unusual-height", True)
+    assert (warning.code, f"{wider:.2f} times" in warning.reason) == ("unusual-height", True)
     variances = np.diag(conditioned.jacobian @ conditioned.covariance @ conditioned.jacobian.T)
     for each, variance in zip(unusual.measurements, variances, strict=True):
         if each.standard_error:

@@ -61,7 +61,7 @@ def test_nothing_known_is_the_mean_height_and_says_so(gender):
     found = person(gender, None)
     assert found.height_m == MEAN_HEIGHT_M[gender]
     assert (found.height_variance, found.given, found.held) == (1.0, (), ())
-    assert [each.quantity for each in found.assumptions] == ["height_m"]
+    assert [each.code for each in found.assumptions] == ["height-assumed"]
 
 
 @pytest.mark.parametrize("known", [{}, {"weight": 80.0}])
@@ -69,7 +69,7 @@ def test_a_height_that_few_have_is_taken_with_a_warning(known):
     for height_m in (1.3, 2.1):
         (warning,) = person(Gender.FEMALE, height_m, **known).warnings
         assert warning.code == "unusual-height"
-        assert f"At {100 * height_m:.0f} cm" in warning.message
+        assert f"At {100 * height_m:.0f} cm" in warning.reason
     assert person(Gender.FEMALE, 1.7, **known).warnings == ()
 
 
@@ -93,8 +93,8 @@ def test_without_a_height_the_most_probable_one_is_taken_and_said(gender):
     mean = typical(gender)["stature"] / 100
     assert mean + 0.05 < found.height_m < mean + 0.15
     (assumption,) = found.assumptions
-    assert assumption.quantity == "height_m"
-    assert assumption.value == found.height_m
+    assert assumption.where == ("height_m",)
+    assert f"{found.height_m:.2f} m" in assumption.reason
     assert "inseam" in assumption.reason
     assert 0.02 < found.height_variance < 0.6
     evaluator = prepared_model(gender).operators.evaluator

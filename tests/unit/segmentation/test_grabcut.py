@@ -168,7 +168,7 @@ def test_a_body_cut_off_by_a_border_is_warned_of_by_side(side: str, window: tupl
     mask[window] = True
     (warning,) = border_warnings(mask)
     assert warning.code == "body-outside-picture"
-    assert f"the {side} border" in warning.message
+    assert f"the {side} border" in warning.reason
 
 
 def test_a_body_inside_the_picture_is_not_warned_of():

@@ -77,7 +77,7 @@ WAYS = {
 }
 
 def import_lazily():
-    import scipy.special, fitter.remarks
+    import scipy.special, fitter.errors
 
 own_works = {
     name: not refused(work)

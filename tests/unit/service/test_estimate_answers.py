@@ -21,7 +21,8 @@ from api_schemas.questions import (
     PointsRequest,
 )
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.remarks import Severity
 from service.compute.answers import TASKS
 from service.compute.questions import (
     ANSWER,
@@ -219,7 +220,9 @@ def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_le
         ("camera-too-near", Severity.HARMS),
     ]
     assert not found.usable
-    assert [(each.quantity, each.value) for each in found.assumptions] == [("height_m", 1.82)]
+    assert [(each.code, "1.82 m" in each.reason) for each in found.assumptions] == [
+        ("height-assumed", True)
+    ]
 
 
 def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_path):

@@ -9,33 +9,26 @@ import pytest
 from api_schemas import results as wire
 from fitter import request as fitter_request
 from fitter import result as fitter_result
-from fitter.capture.finding import Code, Finding
 from fitter.measurement.definitions import Measurement
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import Facing, LightKind, ViewKind
 from fitter.vocabulary.outcomes import (
     FacingSource,
     FocalLengthSource,
     LimbFacing,
-    Severity,
     StanceKind,
 )
+from fitter.vocabulary.remarks import Code, Note, Severity, assumed, remark
 from service.compute.fit_results import fit_result
 
 PARTS = ("pelvis", "spine")
 
 
-CIRCLE = Finding(
-    code=Code.CONTRADICTED,
-    severity=Severity.BLOCKS,
-    reason="It is a circle.",
-    remedy="Send a person.",
-)
-DARK = Finding(code=Code.TOO_DARK, severity=Severity.HARMS, reason="Dark.", remedy="Add light.")
+CIRCLE = remark(Code.CONTRADICTED, "It is a circle.", severity=Severity.BLOCKS)
+DARK = remark(Code.TOO_DARK, "Dark.", severity=Severity.HARMS)
 
 
 def result(*, light: Light | None) -> fitter_result.FitResult:
@@ -91,8 +84,8 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
                 alternative_nats=1.6,
             ),
         ),
-        assumptions=(Assumption(quantity="focal_length_35mm", value=50.0, reason="Unknown."),),
-        warnings=(FitWarning(code="a-warning", message="Look."),),
+        assumptions=(assumed(Note.LENS_ASSUMED, "Unknown.", where=("focal_length_35mm",)),),
+        warnings=(remark(Note.LOW_OVERLAP, "Look."),),
         pictures=fitter_result.Pictures(
             image=np.zeros((48, 64, 3)), trimap=None, segmentation=np.zeros((48, 64), bool)
         ),
@@ -121,8 +114,8 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         evaluations=12,
         stages=(stage,),
         alone=None,
-        assumptions=(Assumption(quantity="height_m", value=1.65, reason="Unknown."),),
-        warnings=(FitWarning(code="of-the-fit", message="Look twice."),),
+        assumptions=(assumed(Note.HEIGHT_ASSUMED, "Unknown.", where=("height_m",)),),
+        warnings=(remark(Note.UNUSUAL_HEIGHT, "Look twice."),),
         stage_seconds={"shading": 1.0},
     )
 
@@ -167,10 +160,10 @@ def test_a_result_says_the_same_in_both_languages():
 def test_what_is_said_of_a_picture_stands_with_it():
     translated = fit_result(result(light=None), part_names=PARTS)
     (view,) = translated.views
-    assert [each.value for each in view.assumptions] == [50.0]
-    assert [each.value for each in translated.assumptions] == [1.65]
-    assert [each.code for each in view.warnings] == ["a-warning"]
-    assert [each.code for each in translated.warnings] == ["of-the-fit"]
+    assert [each.where for each in view.assumptions] == [("focal_length_35mm",)]
+    assert [each.where for each in translated.assumptions] == [("height_m",)]
+    assert [each.code for each in view.warnings] == ["low-silhouette-overlap"]
+    assert [each.code for each in translated.warnings] == ["unusual-height"]
 
 
 @pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
@@ -180,10 +173,7 @@ def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
     translated = fit_result(found_otherwise(ended, found), part_names=PARTS)
     assert translated.verdict == verdict.value
     explained = fitter_result.VERDICT_EXPLANATIONS[verdict]
-    assert (
-        translated.outcome_explanation
-        == f"{explained} contradicted: It is a circle. Send a person."
-    )
+    assert translated.outcome_explanation == f"{explained} contradicted: {CIRCLE.text}"
 
 
 def test_a_result_says_which_measurements_were_given():

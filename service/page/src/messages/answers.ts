@@ -52,47 +52,14 @@ export const answers = {
     "unexpected-answer": "Something stands between this page and the service; reload the page.",
     unreachable: "No connection could be made. See whether it is running, then try again.",
   },
-  warnings: {
-    "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
-    "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
-    "way-differs": "The body ends elsewhere than the motion file does: its feet stay where they touch the ground.",
-    "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
-    "clothes-not-loose":
-      "This looks like underwear or swimwear. If nothing loose covers the body, say that the clothes are close-fitting: girths may be several centimetres too small otherwise.",
-    "cut-off": "The person reaches the border of the picture. Points outside it are missing.",
-    "different-people": "The pictures seem to show different people. Check the pictures and their points, or leave one out.",
-    "given-contradicted": "One value that you gave contradicts the pictures and the height. Check it, and its unit.",
-    implausible: "You asked for measurements all the same. They may be nobody’s: the picture contradicts the body.",
-    "left-and-right-may-be-swapped":
-      "Left and right may be swapped: both eyes are seen, but the points lie as if from behind. Left is the person’s own left.",
-    "limbs-crossed": "Arms or legs cross in the picture. Check that left and right are right.",
-    "low-silhouette-overlap":
-      "The body covers little of the person. Check the points, check left and right, or correct the mask.",
-    "no-person": "You asked for measurements all the same. They may be nobody’s: no person is seen where the points are.",
-    "other-view":
-      "In one of the pictures the person is turned otherwise than you said. Check which view it is, and whether it is mirrored.",
-    "person-too-small": "The person is small in this picture, and measurements suffer. Crop it to them, or use a larger one.",
-    "seen-from-behind": "The person seems to turn their back. Check that left and right are their own.",
-    "segmentation-doubtful":
-      "The person hardly stands out from the background, so the outline is a rough guess. Correct the mask.",
-    "several-people": "Several people were found, and the largest is taken. Click one point of the person you mean.",
-    "shading-not-used": "Too little bare, well-lit skin is seen to use shading. The result is by outline alone.",
-    "shoulders-and-hips-disagree":
-      "The shoulders say one side and the hips the other: a pair may be swapped. Left is the person’s own left.",
-    "other-shape":
-      "This picture is not of the shape in which the camera took it. If a program squeezed it, use the original.",
-    "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
-    "unusual-height":
-      "Few people are this tall or this small, so ranges are wider. Check the height and the body that you chose.",
-  },
-  findings: {
+  remarks: {
     "nobody-found":
       "Nobody was found in this picture. Show the whole person, upright, in good light, with nothing in front of them.",
     "several-people": "Take the picture with one person alone. This one shows several, and the largest is measured.",
     "cut-off": "Step back until there is room all around the person. Here a part of them is cut off.",
     "person-too-small": "Go nearer until the person fills the picture, or crop it to them.",
     "picture-too-small": "Use the picture as the camera took it, not a preview: this one has too few pixels.",
-    "other-view": "Turn as the picture asks: face the camera for the front, turn by a quarter for the side.",
+    "other-view": "The person is turned otherwise than was said. Face the camera for the front, turn by a quarter for the side; or say another view, and check whether the picture is mirrored.",
     "arms-against-trunk": "Hold your arms away from your body, a hand’s breadth or more at the hips.",
     "clothes-loose": "Wear close-fitting clothes, or give the weight. Under loose clothes the body is only estimated.",
     "skin-not-found":
@@ -110,6 +77,31 @@ export const answers = {
     "camera-too-near": "Step back to 2.5 m or more, and zoom in. The camera was too near.",
     contradicted:
       "Check that the points lie on the joints of one person, and that a mask shows nobody else. The picture contradicts the body.",
+    "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
+    "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
+    "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
+    "clothes-not-loose":
+      "This looks like underwear or swimwear. If nothing loose covers the body, say that the clothes are close-fitting: girths may be several centimetres too small otherwise.",
+    "different-people": "The pictures seem to show different people. Check the pictures and their points, or leave one out.",
+    "given-contradicted": "One value that you gave contradicts the pictures and the height. Check it, and its unit.",
+    implausible: "You asked for measurements all the same. They may be nobody’s: the picture contradicts the body.",
+    "left-and-right-may-be-swapped":
+      "Left and right may be swapped: both eyes are seen, but the points lie as if from behind. Left is the person’s own left.",
+    "limbs-crossed": "Arms or legs cross in the picture. Check that left and right are right.",
+    "low-silhouette-overlap":
+      "The body covers little of the person. Check the points, check left and right, or correct the mask.",
+    "no-person": "You asked for measurements all the same. They may be nobody’s: no person is seen where the points are.",
+    "seen-from-behind": "The person seems to turn their back. Check that left and right are their own.",
+    "segmentation-doubtful":
+      "The person hardly stands out from the background, so the outline is a rough guess. Correct the mask.",
+    "shading-not-used": "Too little bare, well-lit skin is seen to use shading. The result is by outline alone.",
+    "shoulders-and-hips-disagree":
+      "The shoulders say one side and the hips the other: a pair may be swapped. Left is the person’s own left.",
+    "other-shape": "This picture is not of the shape in which the camera took it. If a program squeezed it, use the original.",
+    "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
+    "way-differs": "The body ends elsewhere than the motion file does: its feet stay where they touch the ground.",
+    "unusual-height":
+      "Few people are this tall or this small, so ranges are wider. Check the height and the body that you chose.",
   },
   verdicts: {
     implausible: "This picture cannot be measured. The notes say why, and what to do.",

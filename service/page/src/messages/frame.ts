@@ -43,7 +43,6 @@ export const frame = {
         one: "One point was found automatically. Check it if something looks wrong.",
         other: `${count} points were found automatically. Check them if something looks wrong.`,
       }),
-    other: (quantity: string, value: string) => `${quantity} ${value} is assumed.`,
   },
   fields: {
     gender: "Gender",

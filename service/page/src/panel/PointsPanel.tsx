@@ -10,7 +10,7 @@ import type { Place, Points } from "../points/placed";
 import { countProposed, hasProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
-import { answered } from "../ui/answered";
+import { remarked } from "../ui/answered";
 import { DoubtAnswers, DoubtCloseUp, DoubtQuestion, questionOf } from "./DoubtQuestion";
 import { Guide } from "./Guide";
 import { ClickAll, ProposalNote, ProposalWarnings } from "./ProposalNote";
@@ -172,7 +172,7 @@ function Doubts() {
   return (
     <div class="note" role="status">
       {warnings.map((warning) => (
-        <p key={warning.code}>{answered("warnings", warning.code) ?? warning.message}</p>
+        <p key={warning.code}>{remarked(warning)}</p>
       ))}
       {far.length > 0 && (
         <p>{panel.points.unreached(listed(far.map(([name]) => named.named[name])))}</p>

@@ -5,7 +5,7 @@ import { clickAll, isProposing, others, proposal, proposalWord, propose } from "
 import { messages } from "../messages";
 import { hasProposed, isAllProposed } from "../points/proposed";
 import { ProblemNote } from "../ui/ProblemNote";
-import { answered } from "../ui/answered";
+import { remarked } from "../ui/answered";
 
 export function ProposalNote() {
   if (!canPropose.value) return null;
@@ -29,7 +29,7 @@ export function ProposalWarnings() {
   return (
     <div class="note">
       {found.warnings.map((warning) => (
-        <p key={warning.code}>{answered("warnings", warning.code) ?? warning.message}</p>
+        <p key={warning.code}>{remarked(warning)}</p>
       ))}
     </div>
   );

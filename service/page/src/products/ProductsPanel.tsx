@@ -1,13 +1,13 @@
 // What can be made of a finished fit: asked for, followed, looked at and kept.
 import { useState } from "preact/hooks";
-import type { Product, ProductKind } from "../api/types";
+import type { Product, ProductKind, Remark } from "../api/types";
 import { isActive } from "../fit/watch";
 import { messages } from "../messages";
 import { Downloads } from "../result/Downloads";
 import { usePictureOf } from "../result/files";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
-import { answered } from "../ui/answered";
+import { remarked } from "../ui/answered";
 import { FIRST_WISHES, KINDS } from "./kinds";
 import { useProducts } from "./products";
 
@@ -69,9 +69,9 @@ function ProductCard({ product, isOnStage, onShow }: { product: Product; isOnSta
       <h3>{label}</h3>
       {isActive(product) && <progress class="bar" max={1} value={progress} aria-label={words.progress(label)} />}
       {problem && <ProblemNote problem={problem} />}
-      {warningsOf(result).map(({ code, message }) => (
-        <p class="note" key={code + message}>
-          {answered("warnings", code) ?? message}
+      {warningsOf(result).map((remark) => (
+        <p class="note" key={remark.code + remark.reason}>
+          {remarked(remark)}
         </p>
       ))}
       {result && told?.(result)}
@@ -86,6 +86,6 @@ function ProductCard({ product, isOnStage, onShow }: { product: Product; isOnSta
   );
 }
 
-function warningsOf(result: Product["result"]): readonly { code: string; message: string }[] {
-  return result && "warnings" in result ? (result.warnings as { code: string; message: string }[]) : [];
+function warningsOf(result: Product["result"]): readonly Remark[] {
+  return result && "warnings" in result ? result.warnings : [];
 }

@@ -1,12 +1,12 @@
 // What is in doubt, what to do about it, and what had to be assumed; for experts, how the fit went.
-import type { FitResult, FitWarning, ViewResult } from "../api/types";
+import type { FitResult, Remark, ViewResult } from "../api/types";
 import { viewTitles } from "../messages/viewNames";
 import { decimal, degrees, listed, measured, percent, seconds } from "../messages/figures";
 import { plainName, wordFor } from "../messages/words";
 import { messages } from "../messages";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
 import { Findings } from "../ui/Findings";
-import { answered } from "../ui/answered";
+import { remarked } from "../ui/answered";
 import { contradictionOf } from "./quality";
 
 /** Of limbs that may slant either way this page tells by itself, with what can be done. */
@@ -28,8 +28,8 @@ export function Notes({ result, onSayWhich, onCorrect }: Props) {
       <div class="section notes">
         {contradiction && <p class="note is-problem">{contradiction}</p>}
         <WarningNotes warnings={warnings} views={views} />
-        {views.length === 1 && <OfPicture view={views[0]!} number={0} views={views} onSayWhich={onSayWhich} />}
-        <AssumptionNotes assumptions={assumptions} />
+        {views.length === 1 && <OfPicture view={views[0]!} number={0} result={result} onSayWhich={onSayWhich} />}
+        <AssumptionNotes assumptions={assumptions} heightM={result.height_m} lensMm={lensMm(views[0]!)} />
       </div>
       {views.length > 1 &&
         views.map((view, number) => (
@@ -38,7 +38,7 @@ export function Notes({ result, onSayWhich, onCorrect }: Props) {
               <h2>{viewTitles(views)[number]}</h2>
             </summary>
             <div class="of-picture">
-              <OfPicture view={view} number={number} views={views} onSayWhich={onSayWhich} />
+              <OfPicture view={view} number={number} result={result} onSayWhich={onSayWhich} />
               {onCorrect && (
                 <button class="button is-small" type="button" onClick={() => onCorrect(number)}>
                   {messages.result.correct}
@@ -54,10 +54,10 @@ export function Notes({ result, onSayWhich, onCorrect }: Props) {
 interface PictureProps extends Pick<Props, "onSayWhich"> {
   readonly view: ViewResult;
   readonly number: number;
-  readonly views: FitResult["views"];
+  readonly result: FitResult;
 }
 
-function OfPicture({ view, number, views, onSayWhich }: PictureProps) {
+function OfPicture({ view, number, result, onSayWhich }: PictureProps) {
   const { findings, warnings, assumptions, outcome } = view;
   const explained = wordFor(messages.result.explained, outcome);
   const found = new Set(findings.map(({ code }) => code));
@@ -65,19 +65,19 @@ function OfPicture({ view, number, views, onSayWhich }: PictureProps) {
     <>
       {explained && <p class="fine">{explained}</p>}
       <Findings findings={findings} />
-      <WarningNotes warnings={warnings.filter(({ code }) => code !== OPEN_FACING && !found.has(code))} views={views} />
+      <WarningNotes warnings={warnings.filter(({ code }) => code !== OPEN_FACING && !found.has(code))} views={result.views} />
       <OpenLimbs view={view} number={number} onSayWhich={onSayWhich} />
-      <AssumptionNotes assumptions={assumptions} />
+      <AssumptionNotes assumptions={assumptions} heightM={result.height_m} lensMm={lensMm(view)} />
     </>
   );
 }
 
-function WarningNotes({ warnings, views }: { warnings: readonly FitWarning[]; views: FitResult["views"] }) {
+function WarningNotes({ warnings, views }: { warnings: readonly Remark[]; views: FitResult["views"] }) {
   return (
     <>
-      {warnings.map(({ code, message }) => (
-        <p class="note" key={code + message}>
-          {answered("warnings", code) ?? withTitles(message, views)}
+      {warnings.map((remark) => (
+        <p class="note" key={remark.code + remark.reason}>
+          {withTitles(remarked(remark), views)}
         </p>
       ))}
     </>
@@ -95,7 +95,7 @@ function hasNotes({ verdict, outcome, findings, warnings, limb_facing }: ViewRes
   return verdict !== "plausible" || outcome !== "converged" || findings.length + warnings.length > 0 || limb_facing.some(({ ambiguous }) => ambiguous);
 }
 
-function OpenLimbs({ view, number, onSayWhich }: Omit<PictureProps, "views">) {
+function OpenLimbs({ view, number, onSayWhich }: Omit<PictureProps, "result">) {
   const { points, result: words } = messages;
   const open = view.limb_facing.filter(({ ambiguous }) => ambiguous);
   if (open.length === 0) return null;
@@ -148,14 +148,13 @@ export function ForExperts({ result }: Pick<Props, "result">) {
 /** How well the body covers the person, with which lens, in which light and of which skin. */
 function PictureFacts({ view }: { view: ViewResult }) {
   const { result: words } = messages;
-  const { image_camera: camera, light, reflectance } = view;
-  const mm = (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
+  const { light, reflectance } = view;
   return (
     <dl class="facts">
       <dt>{words.overlap}</dt>
       <dd>{percent(view.silhouette_overlap, 1)}</dd>
       <dt>{words.lens}</dt>
-      <dd>{words.lensOf(measured(mm, "millimeter"), words.sources[view.focal_length_source])}</dd>
+      <dd>{words.lensOf(measured(lensMm(view), "millimeter"), words.sources[view.focal_length_source])}</dd>
       {light && (
         <>
           <dt>{words.light}</dt>
@@ -172,6 +171,11 @@ function PictureFacts({ view }: { view: ViewResult }) {
       )}
     </dl>
   );
+}
+
+/** The focal length as on 35 mm film. */
+function lensMm({ image_camera: camera }: ViewResult): number {
+  return (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
 }
 
 function lightWords(light: NonNullable<ViewResult["light"]>): string {

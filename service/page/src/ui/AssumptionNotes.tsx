@@ -1,29 +1,31 @@
 // What nobody said and had to be assumed.
-import type { Assumption } from "../api/types";
+import type { Remark } from "../api/types";
 import { person } from "../draft/draft";
 import { heightInWords } from "../draft/person";
 import { measured } from "../messages/figures";
 import { messages } from "../messages";
-import { fieldName } from "./answered";
 
-export function AssumptionNotes({ assumptions }: { assumptions: readonly Assumption[] }) {
+interface Props {
+  readonly assumptions: readonly Remark[];
+  readonly heightM: number;
+  /** As on 35 mm film. */
+  readonly lensMm: number;
+}
+
+export function AssumptionNotes({ assumptions, heightM, lensMm }: Props) {
+  const { assumed } = messages.frame;
+  const words: Readonly<Record<string, (remark: Remark) => string>> = {
+    "lens-assumed": () => assumed.lens(measured(lensMm, "millimeter")),
+    "height-assumed": () => assumed.height(heightInWords(heightM, person.value.units)),
+    "points-proposed": ({ where }) => assumed.points(where.length),
+  };
   return (
     <>
-      {assumptions.map((assumption) => (
-        <p class="note" key={assumption.quantity}>
-          {inWords(assumption)}
+      {assumptions.map((remark) => (
+        <p class="note" key={remark.code}>
+          {words[remark.code]?.(remark) ?? `${remark.reason} ${remark.remedy}`}
         </p>
       ))}
     </>
   );
-}
-
-function inWords({ quantity, value, reason }: Assumption): string {
-  const { assumed } = messages.frame;
-  if (quantity === "focal_length_35mm" && typeof value === "number") return assumed.lens(measured(value, "millimeter"));
-  if (quantity === "height_m" && typeof value === "number") return assumed.height(heightInWords(value, person.value.units));
-  // Their names tell nobody anything.
-  if (quantity === "points" && typeof value === "string") return assumed.points(value.split(", ").length);
-  // How the outline was taken was the caller's choice: its reason says it all.
-  return quantity === "outline" ? reason : `${assumed.other(fieldName(quantity), String(value))} ${reason}`;
 }

@@ -1,9 +1,15 @@
 // What the page says of an answer by its code; null where the service's own words are to be shown.
+import type { Remark } from "../api/types";
 import { messages } from "../messages";
 import { plainName, wordFor } from "../messages/words";
 
 export function answered(kind: keyof typeof messages.answers, code: string): string | null {
   return wordFor(messages.answers[kind], code);
+}
+
+/** A remark in the page's words, or in the service's. */
+export function remarked({ code, reason, remedy }: Remark): string {
+  return answered("remarks", code) ?? `${reason} ${remedy}`;
 }
 
 /** `views.1.points.left_hip` as a person says it. */
