@@ -287,7 +287,7 @@ def test_a_weight_that_the_pictures_contradict_is_named(names):
 def test_a_view_from_another_side_than_announced_is_named():
     result = fit(together(asked(STANDING, ViewKind.SIDE), asked(TURNED, ViewKind.OTHER)))
     assert warned(result) == ["other-view"]
-    assert "views.0 is said to be from the side" in result.warnings[0].message
+    assert "views.0 is said to be from the side" in result.warnings[0].reason
     assert "other-view" in {each.code for each in result.views[0].findings}
 
 
