@@ -13,8 +13,8 @@ from fitter.fits.reporting import turned_deg
 from fitter.observation.decoding import decode_picture
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender
-from fitter.vocabulary.outcomes import Severity, Verdict
-from fitter.vocabulary.remarks import Code
+from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.remarks import Code, Severity
 from tests.one_picture import one_picture
 from tests.shared_data import SHARED_DATA, needs_shared
 
