@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from fitter.energies.edges import EdgeCostMap
-from fitter.evidence.doubtful_outline import AROUND_M, OFF_M, THING_M, doubtful_outline, outgrown_m
+from fitter.evidence.doubtful_outline import (
+    AROUND_M,
+    BROAD_M,
+    OFF_M,
+    THING_M,
+    doubtful_outline,
+    outgrown_m,
+)
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, SKIN, WALL, WIDTH, boxes
 
@@ -102,7 +109,7 @@ def outgrown(mask: np.ndarray, display: np.ndarray) -> float:
 
 @pytest.mark.parametrize("reach_px", [12, 20, 30])
 def test_a_belly_beyond_the_model_is_the_persons_own_and_told_by_its_reach(reach_px: int):
-    belly = block(100, 125, 150, 190 + reach_px)
+    belly = block(90, 140, 150, 190 + reach_px)
     found = outgrown(body() | belly, shown(body() | belly))
     assert found == pytest.approx(reach_px / PIXELS_PER_METRE, abs=1.5 / PIXELS_PER_METRE)
 
@@ -114,3 +121,9 @@ def test_a_thing_of_other_colours_is_not_the_persons_own():
 
 def test_an_outline_near_the_body_outgrows_nothing():
     assert outgrown(body(), shown(body())) == 0.0
+
+
+def test_an_arm_of_another_is_too_narrow_to_be_the_persons_own():
+    narrow = int(0.8 * BROAD_M * PIXELS_PER_METRE)
+    arm = block(100, 100 + narrow, 150, 220)
+    assert outgrown(body() | arm, shown(body() | arm)) == 0.0
