@@ -7,10 +7,10 @@ import contextlib
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeVar, cast
 
 from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic_core import ErrorDetails, from_json
 
 from api_schemas.problems import MOST_ERRORS, FieldProblem, Problem, field_problem, problem
 
@@ -57,6 +57,9 @@ def refused_field(
     """Refuse for one field."""
     return refused(FieldProblem(field=field, code=code, reason=reason, remedy=remedy), slug=slug)
 
+
+MOST_VALUES: Final = 3_000
+"""The most values of a request's JSON; six pictures with 33 points each have 1,000."""
 
 _UNIT: Final = re.compile(r"_(m|kg|px|35mm)$")
 _LIKENESS: Final = 0.75
@@ -110,6 +113,13 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
     RefusedError
         400 if it is not JSON, 422 if it is not of this type.
     """
+    if _is_overfull(text):
+        raise refused_field(
+            field=whole,
+            code="wrong-length",
+            reason=f"The JSON has more than {MOST_VALUES} values, more than any valid request.",
+            remedy="Send what /openapi.json describes for this path.",
+        )
     try:
         return kind.model_validate_json(text)
     except ValidationError as error:
@@ -128,6 +138,25 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
                 errors=errors,
             )
         ) from error
+
+
+def _is_overfull(text: bytes) -> bool:
+    """Return true if it is JSON of too many values: pydantic would look at all of them."""
+    if len(text) <= 2 * MOST_VALUES:
+        return False
+    try:
+        waiting: list[Any] = [from_json(text)]
+    except ValueError:
+        return False
+    seen = 0
+    while waiting and seen <= MOST_VALUES:
+        value = waiting.pop()
+        seen += 1
+        if isinstance(value, dict):
+            waiting.extend(cast("dict[str, Any]", value).values())
+        elif isinstance(value, list):
+            waiting.extend(cast("list[Any]", value))
+    return seen > MOST_VALUES
 
 
 def field_problems(
