@@ -24,8 +24,8 @@ _WRITES: Final = CapacityLimiter(6)
 _THREADS: Final = CapacityLimiter(16)
 """Fewer than the connections to the database: reads find one while all these wait."""
 
-TURN_WITHIN_S: Final = 5.0
-"""Who has not been let so long is told to come again."""
+TURN_WITHIN_S: Final = 20.0
+"""Who has not been let so long is told to come again: twice as long as a statement may take."""
 
 RETRY_WHEN_FULL_S: Final = 60
 """Somebody has to make room first."""
