@@ -23,8 +23,8 @@ from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image
-from fitter.training.report.measurement_atlas import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from service.demo_data.sample import load_sample
+from tests.evaluation.measurements_page import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from tests.one_picture import one_picture
 from tests.unit.export.plain_pictures import block_means
 

@@ -14,8 +14,8 @@ from fitter.measurement.definitions import (
     needed_points,
     parts_of,
 )
-from fitter.measurement.document import ATLAS_FOLDER, measurements_page, sheet_name
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
+from tests.evaluation.measurements_page import ATLAS_FOLDER, measurements_page, sheet_name
 
 REQUIRED = {
     "stature",

@@ -1,11 +1,10 @@
-"""The pictures of MEASUREMENTS.md: the tape of each measurement on the mean woman.
+"""MEASUREMENTS.md and its pictures: what is measured, and how that stands to standard and survey.
 
-``python -m fitter.training.report.measurement_atlas`` draws them into
-``fitter/measurement/atlas``, one sheet a group. Each tape is seen from where most of it is; what
-the body hides of it is thin.
+``python -m tests.evaluation.measurements_page`` makes the page of the definitions, and draws the
+tape of each measurement on the mean woman into ``fitter/measurement/atlas``, one sheet a group. A
+tape is seen from where most of it is; what the body hides of it is thin.
 """
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -21,12 +20,92 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.export.display import to_levels
 from fitter.export.views import turned_about_vertical
 from fitter.measurement.anthropometry import measuring_body, tape_lines
-from fitter.measurement.definitions import Extent, Height, Length
-from fitter.measurement.document import ATLAS_FOLDER, sheet_name
+from fitter.measurement.definitions import (
+    Agreement,
+    Extent,
+    Height,
+    IsoDefinition,
+    Length,
+    MeasurementDefinition,
+    SurveyDefinition,
+    load_definitions,
+)
 from fitter.observation.pixels import display_from_linear
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import Rendering, render, shade_image
 from fitter.vocabulary.measurements import Group, group_of
+
+ROOT = Path(__file__).parents[2]
+
+_HEADING = """# Measurements
+
+Every measurement of the service, where its tape runs, its definition, and where it agrees with two
+others: ISO 8559-1:2017, the tailors' standard, and ANSUR II, the US Army's survey of 2012 (fields
+of the public release, NATICK/TR-15/007). What the survey's handbook says of each stands in
+`fitter/measurement/definitions.json`, from which `python -m tests.evaluation.measurements_page`
+makes this page.
+
+Bodies are measured in the canonical pose (upright, arms 40 and legs 7 degrees from straight down,
+elbows and knees straight), heights in the standing pose, limbs on the right. A girth is the convex
+hull of a plane cut, because a tape spans hollows; it does not press. Where no landmark is, a point
+is where a ray from inside the average body leaves the skin.
+
+The pictures show the average woman; what she hides of a tape is pale. `python -m fitter.training
+report` prints how far values, spreads and correlations are from the survey's.
+"""
+
+ATLAS_FOLDER = "fitter/measurement/atlas"
+"""From the page, at the root of the repository: a picture of each group's tapes on the body."""
+
+_AGREEMENT = {
+    Agreement.SAME: "as there",
+    Agreement.DIFFERS: "differs",
+}
+
+
+def sheet_name(group: Group) -> str:
+    """The file of a group's picture."""
+    return f"{group.name.lower()}.webp"
+
+
+def measurements_page(definitions: Sequence[MeasurementDefinition]) -> str:
+    """The page, in Markdown."""
+    lines = [_HEADING]
+    for group in Group:
+        members = [each for each in definitions if group_of(each.about.name) is group]
+        lines += [
+            f"## {group.value}\n",
+            f"![Each tape on the body, under its name]({ATLAS_FOLDER}/{sheet_name(group)})\n",
+            "| measurement | here | ISO 8559-1 | ANSUR II |",
+            "|---|---|---|---|",
+            *(_row(each) for each in members),
+            "",
+        ]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _row(definition: MeasurementDefinition) -> str:
+    about = definition.about
+    return (
+        f"| `{about.name}` ({about.unit.value}) | {about.definition} | {_iso(about.iso)} | "
+        f"{_survey(about.survey)} |"
+    )
+
+
+def _iso(iso: IsoDefinition | None) -> str:
+    if iso is None:
+        return "-"
+    clause = "" if iso.clause is None else f" ({iso.clause})"
+    return f"{iso.term}{clause}. *{_AGREEMENT[iso.agreement].capitalize()}:* {iso.difference}"
+
+
+def _survey(survey: SurveyDefinition) -> str:
+    if survey.agreement is Agreement.ABSENT:
+        return "-"
+    fields = " + ".join(f"`{field}`" for field in survey.fields)
+    agreement = _AGREEMENT[survey.agreement].capitalize()
+    return f"{fields}. *{agreement}:* {survey.difference}"
+
 
 GENDER = "female"
 
@@ -107,17 +186,15 @@ def atlas_sheets() -> Mapping[Group, Levels]:
     return {group: _sheet(found) for group, found in cells.items()}
 
 
-def main(folder: Path) -> None:
-    """Write the sheets."""
-    folder.mkdir(parents=True, exist_ok=True)
+def main() -> None:
+    """Write the page and the sheets."""
+    (ROOT / "MEASUREMENTS.md").write_text(measurements_page(load_definitions()), encoding="utf-8")
     for group, levels in atlas_sheets().items():
         encoded, content = cv2.imencode(
             ".webp", levels[:, :, ::-1], (cv2.IMWRITE_WEBP_QUALITY, WEBP_QUALITY)
         )
-        if not encoded:
-            message = f"OpenCV could not encode the sheet {group}."
-            raise RuntimeError(message)
-        (folder / sheet_name(group)).write_bytes(content.tobytes())
+        assert encoded
+        (ROOT / ATLAS_FOLDER / sheet_name(group)).write_bytes(content.tobytes())
 
 
 def _view(vertices: Vertices, triangles: Triangles, degrees: float) -> _View:
@@ -220,4 +297,4 @@ def _sheet(cells: Sequence[Levels]) -> UInt8[np.ndarray, "sheet_h sheet_w 3"]:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(ATLAS_FOLDER))
+    main()

@@ -6,9 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.measurement.document import ATLAS_FOLDER, sheet_name
-from fitter.training.report.measurement_atlas import TAPE, atlas_sheets
 from fitter.vocabulary.measurements import Group
+from tests.evaluation.measurements_page import ATLAS_FOLDER, TAPE, atlas_sheets, sheet_name
 
 FOLDER = Path(__file__).parents[3] / ATLAS_FOLDER
 
