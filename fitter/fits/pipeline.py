@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from fitter.arrays import Shape
+from fitter.arrays import Shape, ShapeCovariance
 from fitter.energies.objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
@@ -35,7 +35,6 @@ from fitter.measurement.definitions import Measurement
 from fitter.observation.subject import check_person
 from fitter.optimizer.free_space import held_shape
 from fitter.optimizer.uncertainty import certainty, shape_covariance
-from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape, combined_shape
 from fitter.population.known_person import known_person
 from fitter.request import FitRequest, Paper, View
@@ -47,8 +46,7 @@ from fitter.vocabulary.remarks import Code
 _WAIST: Final = "waist_girth_smallest"
 
 MOST_VIEWS: Final = 6
-"""Pictures of one fit; those in which a body was found before are searched faster, and may be
-:data:`fitter.person.several_pictures.MOST_PICTURES`."""
+"""Pictures of one fit."""
 
 
 def fit(
@@ -69,7 +67,7 @@ def fit(
     alone = None
     if paper is None:
         pictures = _search_pictures(request, subject, equipment, clock)
-        alone = _alone(request, subject, pictures)
+        alone = _alone(subject, pictures)
         held = subject.known.attributes.held
         start = pictures[0].body.parameters.shape if alone is None else alone.shape
         found = search(pictures, subject.known, held_shape(held, start), request.choices, clock)
@@ -189,30 +187,16 @@ def _search_pictures(
     return pictures
 
 
-def _alone(
-    request: FitRequest, subject: Subject, pictures: Sequence[PictureSearch]
-) -> CombinedShape | None:
-    """Shape as several pictures say it, each by itself."""
+def _alone(subject: Subject, pictures: Sequence[PictureSearch]) -> CombinedShape | None:
+    """Shape as the outlines of several pictures say it, each by itself."""
     if len(pictures) == 1:
         return None
-    return combined_shape([_person_alone(request, subject, picture) for picture in pictures])
-
-
-def _person_alone(request: FitRequest, subject: Subject, picture: PictureSearch) -> FittedPerson:
-    """The person as the outline of one picture tells them."""
-    about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
-    seen = about.evaluate([picture.body])
-    (certain,) = certainty(about, seen)
-    return FittedPerson(
-        gender=request.person.gender,
-        model_checksum=subject.prepared.operators.model.checksum,
-        body=picture.body.parameters,
-        camera=picture.observation.image_camera,
-        light=None,
-        reflectance=None,
-        albedo_rgb=None,
-        shape_covariance=shape_covariance(certain, height_variance=subject.known.height_variance),
-    )
+    covariances: list[ShapeCovariance] = []
+    for picture in pictures:
+        about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
+        (certain,) = certainty(about, about.evaluate([picture.body]))
+        covariances.append(shape_covariance(certain, height_variance=subject.known.height_variance))
+    return combined_shape([each.body.parameters.shape for each in pictures], covariances)
 
 
 def _with_wider_errors(

@@ -240,7 +240,7 @@ def several(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
         replace(front, kind=ViewKind.FRONT),
         replace(front, kind=ViewKind.SIDE, found=doubtful),
     )
-    alone = CombinedShape(shape=one.shape, covariance=np.eye(2), agreement=0.4, differing=1)
+    alone = CombinedShape(shape=one.shape, agreement=0.4, differing=1)
     return replace(one, views=views, stages=(replace(stage, bodies=2 * stage.bodies),), alone=alone)
 
 
