@@ -18,7 +18,7 @@ from service.compute.lanes import QuickLane, answer_questions
 from service.compute.models import check_detector, check_models, read_models
 from service.compute.tasks import child_setup
 from service.jobs.blobs import open_blob_store, setting_of_storage
-from service.process.confinement import warn_of_root
+from service.process.confinement import warn_of_weakness
 from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.supervisor import SAFE_PATH_VARIABLE
 from service.settings import Settings
@@ -99,7 +99,7 @@ def run_worker(
     )
     engine.start(runner.run, body_models=read_models(settings))
     LOG.info("Worker %s is ready.", engine.executor_id)
-    warn_of_root()
+    warn_of_weakness()
     if not server.is_able():
         LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
@@ -126,7 +126,7 @@ def run_estimators(
     check_models(settings)
     check_detector(settings)
     _answering(settings, questions_at, estimates, preload)
-    warn_of_root()
+    warn_of_weakness()
     stop.wait()
     _end(work)
 

@@ -21,7 +21,7 @@ import platform
 import signal
 import struct
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -109,11 +109,16 @@ def confine(*, readable: Iterable[str], writable: str) -> bool:
     alone. Files that are open stay so. Returns whether the kernel offers it all.
     """
     gain_no_privileges()
+    rights = {**dict.fromkeys(readable, READING), writable: ALL_RIGHTS, **DEVICES}
+    held = [_tried(lambda: _restrict_files(rights)), _tried(_restrict_calls)]
+    return all(held)
+
+
+def _tried(restrict: Callable[[], None]) -> bool:
     try:
-        _restrict_files({**dict.fromkeys(readable, READING), writable: ALL_RIGHTS, **DEVICES})
-        _restrict_calls()
+        restrict()
     except (AttributeError, KeyError, OSError) as error:
-        LOG.warning("Processes of jobs are not confined by this kernel (%s).", error)
+        LOG.info("This system does not confine processes of jobs (%s).", error)
         return False
     return True
 
@@ -134,10 +139,16 @@ def readable_paths(settings: Settings) -> tuple[str, ...]:
     )
 
 
-def warn_of_root() -> None:
-    """Say that confinement is weaker for root."""
+def warn_of_weakness() -> None:
+    """Say why processes that decode pictures are confined less than they could be, if so."""
     if os.geteuid() == 0:
-        LOG.warning("This runs as root: a process that is taken over may do more than it should.")
+        LOG.warning(
+            "This runs as root: name a user who may do less, in case a process is taken over."
+        )
+    try:
+        landlock_version()
+    except (AttributeError, OSError):
+        LOG.warning("This system has no Landlock: processes of jobs may read this user's files.")
 
 
 LIBRARIES: Final = (

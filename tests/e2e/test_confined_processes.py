@@ -58,7 +58,11 @@ def assert_confined(process: Path) -> None:
     names = {each.partition("=")[0] for each in variables_of(process)}
     assert {name for name in names if name.startswith(PREFIX)} <= NEEDED
     assert f"{PREFIX}PORT" not in names
-    assert "NoNewPrivs:\t1" in (process / "status").read_text()
+    status = (process / "status").read_text()
+    assert "NoNewPrivs:\t1" in status
+    if name_of(process) in ("job", "estimator"):
+        # A filter of its calls.
+        assert "Seccomp:\t2" in status
 
 
 def test_they_know_no_secrets_and_gain_no_privileges(service: httpx.Client, finished_fit: str):

@@ -139,11 +139,19 @@ def test_no_way_leads_out_of_a_confined_process(tmp_path):
     assert (other / "maquette.sqlite").read_text() == "before"
 
 
-def test_where_the_kernel_offers_nothing_the_process_goes_on(monkeypatch, tmp_path, caplog):
+def test_where_the_kernel_offers_nothing_the_process_goes_on_and_a_worker_warns(
+    monkeypatch, tmp_path, caplog
+):
     monkeypatch.setattr(confinement, "CREATE_RULESET", 100_000)
     monkeypatch.setattr(confinement, "gain_no_privileges", lambda: None)
+    monkeypatch.setattr(confinement, "_restrict_calls", lambda: None)
     assert not confinement.confine(readable=[], writable=str(tmp_path))
-    assert "not confined" in caplog.text
+    for user in (0, 1_000):
+        caplog.clear()
+        monkeypatch.setattr(os, "geteuid", lambda user=user: user)
+        confinement.warn_of_weakness()
+        assert "no Landlock" in caplog.text
+        assert ("as root" in caplog.text) == (user == 0)
 
 
 @pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
