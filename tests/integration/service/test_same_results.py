@@ -17,7 +17,7 @@ from tests.submissions import checked, small_submissions
 MAX_PIXELS = 10_000_000
 SETUP = child_setup(Settings(max_pixels=MAX_PIXELS), name="job", tasks="service.compute.pipeline")
 
-KINDS = ("composition", "caricature", "pose", "animation", "print", "texture")
+KINDS = ("composition", "caricature", "pose", "animation", "texture")
 
 Job = tuple[str, dict[str, bytes]]
 """Its task and parts."""

@@ -11,14 +11,13 @@ from api_schemas.products.base import ProductKind
 from service.compute.pipeline import maker_of
 from service.compute.products.finished_fit import Made
 
-
-def told_apart(union: object) -> dict[str, Any]:
-    """The types of a union by their tags without the brackets, in its order."""
-    alternatives = (get_args(each) for each in get_args(union))
-    return {tag.tag.strip("[]"): model for model, tag in alternatives}
-
-
-OPTIONS, RESULTS = told_apart(AnyProductOptions), told_apart(AnyProductResult)
+OPTIONS: dict[str, Any] = {
+    tag.tag.strip("[]"): model for model, tag in map(get_args, get_args(AnyProductOptions))
+}
+RESULTS: dict[str, Any] = {
+    get_args(model.model_fields["kind"].annotation)[0]: model
+    for model in get_args(get_args(AnyProductResult)[0])
+}
 
 
 def test_every_kind_has_options_and_a_result():
