@@ -55,6 +55,8 @@ HARM: Final[Mapping[Code, Harm]] = {
     # Of 12 people in clothes and 12 in underwear, in pictures without colours.
     Code.SKIN_NOT_FOUND: Harm(waist=1.3, hip=1.2, weight=1.7),
     Code.CUT_OFF: Harm(chest=1.4, waist=1.3, hip=1.2, weight=1.5),
+    # Of eight people squeezed to 0.75 or stretched to 1.3 of their height, 15 fits.
+    Code.SQUEEZED: Harm(chest=4.7, waist=5.6, hip=5.1, weight=7.3),
     # Of twelve people half behind others: 1.5 times what makes errors as large as stated, the upper
     # end of what so few allow.
     Code.NOBODY_FOUND: Harm(chest=1.5, waist=2.0, hip=1.6, weight=1.5),

@@ -92,6 +92,33 @@ def plausibility(
     )
 
 
+HEAD_ROWS = (0.5, 0.6, 0.7, 0.8)
+"""Where heads are compared, from the crown of the head's part to its lower end: below most hair."""
+
+
+def head_breadth(objective: Objective, candidate: Candidate) -> float | None:
+    """Breadth of the head in the picture, of the body's own; None where no head is seen.
+
+    Bodies become broader with the person, and heads hardly.
+    """
+    model, faces = objective.operators.model, candidate.rendering.face_ids
+    head = (faces >= 0) & (model.part_of_triangle[faces] == model.part_names.index("head"))
+    rows = np.flatnonzero(head.any(axis=1))
+    if not len(rows):
+        return None
+    shares: list[float] = []
+    for row in (int(rows[0] + share * (rows[-1] - rows[0])) for share in HEAD_ROWS):
+        own, seen = head[row], objective.evidence.silhouette.mask[row]
+        if not own.any():
+            continue
+        middle = int(np.flatnonzero(own).mean())
+        beside = np.flatnonzero(~seen)
+        left = beside[beside < middle].max(initial=-1)
+        right = beside[beside > middle].min(initial=len(seen))
+        shares.append(float((right - left - 1) * seen[middle] / np.count_nonzero(own)))
+    return float(np.median(shares)) if shares else None
+
+
 def _clear_boundary(observation: Observation, objective: Objective, candidate: Candidate) -> float:
     """A caller's mask does not hide what the picture shows: lines are then placed here."""
     pixels_per_metre = objective.scales.pixels_per_metre

@@ -19,14 +19,16 @@ import numpy as np
 from jaxtyping import Integer, Shaped
 
 from fitter.arrays import Mask
+from fitter.capture.capture import Capture
 from fitter.capture.checking import check_capture
+from fitter.capture.posture import is_broadside
 from fitter.energies.objective import Objective
 from fitter.evidence.doubtful_outline import off_the_body, scale_of
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.fits.capture_check import capture_of_fit
 from fitter.fits.clothing_report import clothes_are_guessed, with_ease
 from fitter.fits.outline_search import PictureSearch, Subject
-from fitter.fits.plausibility import Plausibility, plausibility
+from fitter.fits.plausibility import Plausibility, head_breadth, plausibility
 from fitter.fits.reporting import POOR_OVERLAP, outcome_of
 from fitter.fits.search import Found, LitView
 from fitter.optimizer.hidden_reflectance import albedo_rgb
@@ -77,10 +79,12 @@ def _settled(
     contradicted = contradiction(figures)
     clothing = with_ease(objective.evidence.worn, objective, certain)
     seen = None if clothes_are_guessed(objective, observation.clothing.both) else clothing
-    checked = check_capture(capture_of_fit(picture, known.height_m, body, seen))
+    capture = capture_of_fit(picture, known.height_m, body, seen)
+    checked = check_capture(capture)
     findings = (*contradicted.findings, *checked.findings)
     if not is_outgrown(figures):
         findings += obstruction(objective.evidence.silhouette, body.rendering, parts)
+    findings += squeezed(capture, head_breadth(objective, body))
     verdict = contradicted.verdict
     if verdict is Verdict.PLAUSIBLE and not checked.usable:
         verdict = Verdict.IMPLAUSIBLE
@@ -287,6 +291,41 @@ def obstruction(
             "Something covers the person, touches their outline or looks like them: of the "
             f"outline {_listed(said)} does not count.",
             severity=Severity.HARMS,
+        ),
+    )
+
+
+NARROW_HEAD, BROAD_HEAD = 0.92, 1.1
+"""Breadth of a head, of the body's, seen from the front: 0.95 to 1.06 of twenty people, 1.11 to 1.3
+of those squeezed to 0.75 of their height, 0.82 to 0.92 of those stretched to 1.3 (tuning half)."""
+
+EARS: Final = 0.092
+"""Distance of the ears, of the stature: the median of people from the front (tuning half). Long
+hair broadens a head, and moves no ears."""
+
+
+def squeezed(capture: Capture, breadth: float | None) -> tuple[Remark, ...]:
+    """What is to be told of a picture that was squeezed or stretched: nothing, or one finding.
+
+    ``breadth`` is that of the head in the picture, of the body's.
+    """
+    ears = [capture.joints.get(f"{side}_ear") for side in ("left", "right")]
+    if breadth is None or ears[0] is None or ears[1] is None or not is_broadside(capture):
+        return ()
+    if capture.stature_px is None:
+        return ()
+    apart = float(np.linalg.norm(ears[0] - ears[1])) / capture.stature_px
+    is_broad = breadth > BROAD_HEAD and apart > EARS
+    is_narrow = 0.0 < breadth < NARROW_HEAD and apart < EARS
+    if not (is_broad or is_narrow):
+        return ()
+    return (
+        remark(
+            Code.SQUEEZED,
+            f"The head is {breadth:.2f} times as broad as that of a body as tall and heavy: the "
+            f"picture seems to be {'squeezed' if is_broad else 'stretched'} from top to bottom.",
+            severity=Severity.HARMS,
+            where=("left_ear", "right_ear"),
         ),
     )
 

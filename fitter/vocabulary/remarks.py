@@ -31,8 +31,8 @@ class Severity(StrEnum):
 class Code(StrEnum):
     """Codes of what may be found in a picture.
 
-    By a fit alone: ``COVERED``, that something is before or beside the person, and
-    ``CONTRADICTED``, that no person was measured.
+    By a fit alone: ``COVERED``, that something is before or beside the person, ``SQUEEZED``, that
+    the picture is, and ``CONTRADICTED``, that no person was measured.
     """
 
     NOBODY_FOUND = "nobody-found"
@@ -53,6 +53,7 @@ class Code(StrEnum):
     TOO_BRIGHT = "too-bright"
     CAMERA_ROLLED = "camera-rolled"
     CAMERA_TOO_NEAR = "camera-too-near"
+    SQUEEZED = "squeezed"
     CONTRADICTED = "contradicted"
 
 
@@ -133,6 +134,7 @@ REMEDIES: Final[Mapping[Code | Note, str]] = {
         "Step back to 2.5 m or more and zoom in; if the picture was cropped, send the focal length "
         "in its own pixels."
     ),
+    Code.SQUEEZED: "Send the picture as the camera took it, in its own ratio.",
     Code.CONTRADICTED: (
         "See whether the points are on the right joints of one person, and whether a mask that was "
         "sent shows this person alone; or send another picture. What is held before the body is to "

@@ -31,6 +31,7 @@ WITHOUT_EXAMPLE = {
     Code.NOBODY_FOUND,
     Code.SKIN_NOT_FOUND,
     Code.FACE_HIDDEN,
+    Code.SQUEEZED,
     Code.COVERED,
     Code.NOT_STANDING,
     Code.CHILD,

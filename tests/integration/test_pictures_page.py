@@ -31,7 +31,7 @@ def rows(heading: str) -> dict[str, str]:
     return found
 
 
-BY_FITS_ALONE = {"covered", "contradicted"}
+BY_FITS_ALONE = {"covered", "squeezed", "contradicted"}
 CHECKS = rows("Findings")
 HARMS = rows("What harms")
 OF_FITS = rows("Warnings of a fit")

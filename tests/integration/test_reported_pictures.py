@@ -1,9 +1,11 @@
 """Small pictures that were once measured wrongly, beside the repository in ../shared/data/cases."""
 
+import io
 import json
 from functools import cache
 
 import pytest
+from PIL import Image as PillowImage
 
 from fitter.capture.checking import check_capture
 from fitter.detection.detector import installed_detector
@@ -15,6 +17,7 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.remarks import Code, Severity
+from service.demo_data.sample import load_sample
 from tests.one_picture import one_picture
 from tests.shared_data import SHARED_DATA, needs_shared
 
@@ -80,6 +83,30 @@ def test_who_is_cut_off_at_the_thighs_is_no_child_before_a_fit_or_after():
     for each in (asked(name), found(result)):
         assert Code.CHILD not in each
         assert each[Code.CUT_OFF] is Severity.HARMS
+
+
+@pytest.mark.parametrize(("height", "is_told"), [(1.3, True), (1.0, False), (0.75, True)])
+def test_a_squeezed_or_stretched_picture_is_told_and_its_errors_are_wider(height, is_told):
+    sample = load_sample()
+    picture = PillowImage.open(io.BytesIO(sample.image)).convert("RGB")
+    squeezed = io.BytesIO()
+    picture.resize((picture.width, round(height * picture.height))).save(squeezed, "PNG")
+    said = json.loads(sample.request)
+    result = fit(
+        one_picture(
+            image=squeezed.getvalue(),
+            clicks={},
+            complete_clicks=True,
+            cues=Cues.SE,
+            gender=Gender(said["gender"]),
+            height_m=said["height_m"],
+            force=True,
+        )
+    )
+    assert (Code.SQUEEZED in found(result)) == is_told
+    weight = next(each for each in result.measurements if each.name == "weight")
+    assert weight.standard_error is not None
+    assert (weight.standard_error > 10.0) == is_told
 
 
 @pytest.mark.parametrize(

@@ -75,6 +75,8 @@ export const answers = {
     "too-bright": "Tap the person on the camera’s screen, or leave the glaring light. Much of the person is overexposed.",
     "camera-rolled": "Hold the camera level and stand upright. The person leans in this picture.",
     "camera-too-near": "Step back to 2.5 m or more, and zoom in. The camera was too near.",
+    squeezed:
+      "Use the picture as the camera took it. This one seems to be squeezed or stretched: the head is too broad or too narrow for the body.",
     contradicted:
       "Check that the points lie on the joints of one person, and that a mask shows nobody else. The picture contradicts the body.",
     "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
