@@ -10,7 +10,7 @@ from api_schemas.jobs import WebhookTarget
 from api_schemas.labels import LABEL_OF_FIT, Label
 from api_schemas.person import Person
 from api_schemas.picture import ViewRequest
-from api_schemas.points import AUTO, Point, PointsFormat
+from api_schemas.points import AUTO, Point
 from fitter.vocabulary.choices import Cues, OptimizerKind, PaperEnergy, ViewKind
 from fitter.vocabulary.points import PointName
 
@@ -120,9 +120,7 @@ class FitRequest(Person):
             The given ones of every picture, by their names.
         """
         views = tuple(
-            view
-            if view.points == AUTO
-            else view.model_copy(update={"points": dict(named), "format": PointsFormat.NAMED})
+            view if view.points == AUTO else view.model_copy(update={"points": dict(named)})
             for view, named in zip(self.views, points, strict=True)
         )
         return self.model_copy(update={"views": views, "webhook": None})

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
-from api_schemas.points import AUTO, Points, PointsFormat, PointsOrAuto
+from api_schemas.points import AUTO, Points, PointsOrAuto
 from fitter.vocabulary.choices import Clothing, Facing, LightKind, ViewKind
 
 LEAST_SIDE_PX: Final = 64
@@ -81,7 +81,6 @@ LimbFacings = Annotated[
     dict[Limb, Facing],
     Field(description="Which limbs point toward the camera, which away."),
 ]
-LaidOut = Annotated[PointsFormat, Field(description="Whose points they are: another's are lists.")]
 
 
 class Lens(WireModel):
@@ -156,7 +155,6 @@ class ViewRequest(Lens):
         ),
         examples=[POINTS_EXAMPLE, AUTO],
     )
-    format: LaidOut = PointsFormat.NAMED
     complete_points: bool = Field(
         default=False,
         description=(

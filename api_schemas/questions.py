@@ -10,12 +10,11 @@ from api_schemas.picture import (
     POINTS_DESCRIPTION,
     POINTS_EXAMPLE,
     ImageId,
-    LaidOut,
     Lens,
     Limb,
     LimbFacings,
 )
-from api_schemas.points import NamedPoint, Point, Points, PointsFormat
+from api_schemas.points import NamedPoint, Point, Points
 from api_schemas.results import (
     BodyResult,
     CameraResult,
@@ -64,7 +63,6 @@ class InitialPoseRequest(Person, Lens):
     """Who is in the picture, where the joints are, and how large the picture is."""
 
     points: Points = Field(description=f"{POINTS_DESCRIPTION}.", examples=[POINTS_EXAMPLE])
-    format: LaidOut = PointsFormat.NAMED
     limb_facing: LimbFacings = Field(default_factory=dict[Limb, Facing])
     image_size: ImageSize
 
@@ -114,7 +112,6 @@ class PointsRequest(Lens):
             "that is checked of the person."
         ),
     )
-    format: LaidOut = PointsFormat.NAMED
     gender: Gender | None = Field(
         default=None, description="Says what height is assumed if none is given."
     )

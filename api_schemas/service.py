@@ -6,7 +6,6 @@ from pydantic import Field
 
 from api_schemas.base import WireModel
 from api_schemas.picture import Limb
-from api_schemas.points import PointsFormat
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.vocabulary.points import POINT_NAMES
@@ -65,7 +64,6 @@ class BodyModels(WireModel):
 
     models: tuple[BodyModelInfo, ...]
     points: tuple[str, ...] = POINT_NAMES
-    point_formats: tuple[PointsFormat, ...] = tuple(PointsFormat)
     limbs: tuple[Limb, ...] = tuple(Limb)
     min_height_m: float = LEAST_HEIGHT_M
     max_height_m: float = MOST_HEIGHT_M

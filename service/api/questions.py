@@ -7,7 +7,6 @@ from typing import Final
 from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.points import PointsFormat
 from api_schemas.questions import (
     BodyEstimate,
     BodyRequest,
@@ -149,8 +148,8 @@ async def estimate_initial_pose(request: Request, context: Context) -> Response:
     size, most = asked.image_size, context.settings.max_pixels
     if size.width * size.height > most:
         raise refused(too_many_pixels("image_size", size.width, size.height, most))
-    points = checked_points(asked.points, asked.format, width=size.width, height=size.height)
-    named = asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
+    points = checked_points(asked.points, width=size.width, height=size.height)
+    named = asked.model_copy(update={"points": points})
     parts = await context.estimators.answer(questions.INITIAL_POSE, named)
     return Response(parts[ANSWER], media_type=JSON, headers=NOT_KEPT)
 

@@ -7,7 +7,7 @@ from api_schemas.fit import FitRequest as AskedFit
 from api_schemas.person import Person as AskedPerson
 from api_schemas.person import UncertainMeasurement
 from api_schemas.picture import ClothingByRegion, ViewRequest
-from api_schemas.points import Point, Points, PointSource, points_by_name
+from api_schemas.points import Point, Points, PointSource, named_points
 from api_schemas.problems import FieldProblem
 from fitter.detection.landmark_meanings import INDEX_OF_POINT, UNSEEN_CONFIDENCE, spread_m
 from fitter.errors import DetectorUnavailableError, InvalidInputError
@@ -91,7 +91,7 @@ def _view(asked: ViewRequest, cues: Cues, sent: SentPicture[bytes]) -> View:
 
 def clicks(points: Points) -> dict[str, Click]:
     """Translate named points; proposed ones get the spread of proposals of that name."""
-    return {name: _click(name, point) for name, point in points_by_name(points).items()}
+    return {name: _click(name, point) for name, point in named_points(points).items()}
 
 
 def known_measurements(known: AskedPerson) -> dict[str, KnownMeasurement]:

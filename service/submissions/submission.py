@@ -9,11 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from pydantic_core import PydanticCustomError
-
 from api_schemas.fit import FitRequest
 from api_schemas.picture import ViewRequest
-from api_schemas.points import AUTO, Point, Points, PointsFormat, named_points
+from api_schemas.points import AUTO, Point, Points, named_points
 from api_schemas.problems import FieldProblem, Problem, problem
 from api_schemas.questions import PointsRequest
 from fitter.detection.weights import INSTALLATION, detector_fault
@@ -104,7 +102,7 @@ def _points(view: ViewRequest, picture: ImageHeader) -> dict[PointName, Point]:
     if view.points == AUTO:
         return {}
     check = placed_points if view.complete_points else checked_points
-    return check(view.given_points, view.format, width=picture.width, height=picture.height)
+    return check(view.given_points, width=picture.width, height=picture.height)
 
 
 def check_picture(
@@ -209,13 +207,11 @@ def placed_question(
         As :func:`check_picture` and :func:`placed_points`.
     """
     header = check_picture("image", image, max_pixels=max_pixels, read=read)
-    points = placed_points(asked.points, asked.format, width=header.width, height=header.height)
-    return asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
+    points = placed_points(asked.points, width=header.width, height=header.height)
+    return asked.model_copy(update={"points": points})
 
 
-def checked_points(
-    points: Points, layout: PointsFormat, *, width: int, height: int
-) -> dict[PointName, Point]:
+def checked_points(points: Points, *, width: int, height: int) -> dict[PointName, Point]:
     """Translate the points to named pixels of the upright picture and check them.
 
     Raises
@@ -223,33 +219,22 @@ def checked_points(
     RefusedError
         As :func:`placed_points`, or if they are too few or too close together.
     """
-    named = placed_points(points, layout, width=width, height=height)
+    named = placed_points(points, width=width, height=height)
     fault = shortage(_places(named), width=width, height=height)
     if fault is not None:
         raise refused(_problem(fault))
     return named
 
 
-def placed_points(
-    points: Points, layout: PointsFormat, *, width: int, height: int
-) -> dict[PointName, Point]:
+def placed_points(points: Points, *, width: int, height: int) -> dict[PointName, Point]:
     """Translate the points and check what can be checked before others are added.
 
     Raises
     ------
     RefusedError
-        If the layout does not fit the points, or one lies outside the picture.
+        If one lies outside the picture.
     """
-    try:
-        named = named_points(points, layout, width=width, height=height)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise refused_field(
-            field=str(context.get("field", "points")),
-            code=error.type,
-            reason=str(context.get("reason", error.message())),
-            remedy=str(context.get("remedy", "")),
-        ) from error
+    named = named_points(points)
     outside = [
         _problem(fault) for fault in place_faults(_places(named), width=width, height=height)
     ]

@@ -39,7 +39,6 @@ SEEN = {
     "points": POINTS,
     "focal_length_px": 90.0,
     "limb_facing": {"left_shin": "toward"},
-    "format": "named",
 }
 VIEW = SEEN | {"light": {"kind": "point"}, "clothing": {"upper": "loose"}}
 SEEN_FROM = ("front", "side")

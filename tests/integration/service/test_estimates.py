@@ -75,7 +75,7 @@ def test_an_initial_pose_follows_from_clicks_and_the_picture_s_size(service: Ser
 
 def test_detectors_points_reach_the_estimator_by_name(service: Service):
     detected = [[100.0 + 10.0 * n, 20.0 * n, 2] for n in range(17)]
-    request = {"gender": "male", "format": "coco17", "points": detected, "image_size": SIZE}
+    request = {"gender": "male", "points": detected, "image_size": SIZE}
     pose = service.client.post("/v1/initial-poses", json=request)
     assert {"nose", "left_wrist", "right_ankle"} <= set(pose.json()["residual_px"])
 

@@ -144,8 +144,7 @@ def test_checking_twice_changes_nothing():
         ({"points": POINTS | {"nose": [1]}}, "points.nose", "wrong-length"),
         ({"points": POINTS | {"nose": [1, 1, 2, 3]}}, "points.nose", "wrong-length"),
         ({"points": POINTS | {"nose": [1, 1, 3]}}, "points.nose", "unknown-visibility"),
-        ({"points": [1.0, 2.0, 3.0]}, "points", "points-not-named"),
-        ({"format": "coco17"}, "points", "wrong-point-count"),
+        ({"points": [[1.0, 2.0, 2]]}, "points", "wrong-length"),
         ({"focal_length_px": 0}, "focal_length_px", "out-of-range"),
         (
             {"focal_length_px": 900, "focal_length_35mm": 50},
