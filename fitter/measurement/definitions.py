@@ -51,20 +51,9 @@ class Direction(StrEnum):
     FORWARD = "forward"
 
 
-class Agreement(StrEnum):
-    """Agreement of a measurement with the survey's."""
-
-    SAME = "same"
-    DIFFERS = "differs"
-    ABSENT = "absent"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SurveyDefinition:
-    """The same as ANSUR II, the US Army's anthropometric survey of 2012, takes it of people.
-
-    After its measurer's handbook (Hotzman et al. 2011, NATICK/TR-11/017) and report (Gordon et al.
-    2014, NATICK/TR-15/007), in our words.
+class SurveyFields:
+    """The same in ANSUR II, the US Army's anthropometric survey of 2012.
 
     Attributes
     ----------
@@ -72,53 +61,24 @@ class SurveyDefinition:
         The survey's fields whose sum it is; none where the survey does not take it.
     share
         Of that sum, what ours is taken to be: less than one where the survey tenses muscles.
-    agreement
-        ``same``: the same landmarks and the same tape.
-    definition
-        Landmark, plane, tape and posture of the survey.
-    difference
-        What is not the same: landmark, plane, tape, posture, breath.
     """
 
     fields: tuple[str, ...]
     share: float
-    agreement: Agreement
-    definition: str
-    difference: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class IsoDefinition:
-    """The same as ISO 8559-1:2017, the tailors' standard, takes it of people; in our words.
-
-    Attributes
-    ----------
-    term
-        Its name there.
-    clause
-        Its number there; None where no public source tells it.
-    agreement
-        ``same`` or ``differs``.
-    difference
-        What is not the same.
-    """
-
-    term: str
-    clause: str | None
-    agreement: Agreement
-    difference: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """Description of a measurement to its reader; ``iso`` is None where the standard lacks it."""
+    """Description of a measurement to its reader.
+
+    The file says more to the readers of MEASUREMENTS.md: how standard and survey take the same.
+    """
 
     name: str
     unit: Unit
     definition: str
     source: str
-    survey: SurveyDefinition
-    iso: IsoDefinition | None
+    survey: SurveyFields
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -264,26 +224,13 @@ def _definition(
 
 
 def _about(entry: Mapping[str, Any]) -> About:
-    iso, survey = entry.get("iso"), entry["survey"]
+    survey = entry["survey"]
     return About(
         name=entry["name"],
         unit=Unit(entry["unit"]),
         definition=entry["definition"],
         source=entry["source"],
-        survey=SurveyDefinition(
-            fields=tuple(survey["fields"]),
-            share=survey.get("share", 1.0),
-            agreement=Agreement(survey["agreement"]),
-            definition=survey["definition"],
-            difference=survey["difference"],
-        ),
-        iso=iso
-        and IsoDefinition(
-            term=iso["term"],
-            clause=iso.get("clause"),
-            agreement=Agreement(iso["agreement"]),
-            difference=iso["difference"],
-        ),
+        survey=SurveyFields(fields=tuple(survey["fields"]), share=survey.get("share", 1.0)),
     )
 
 

@@ -5,10 +5,12 @@ tape of each measurement on the mean woman into ``fitter/measurement/atlas``, on
 tape is seen from where most of it is; what the body hides of it is thin.
 """
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -21,14 +23,10 @@ from fitter.export.display import to_levels
 from fitter.export.views import turned_about_vertical
 from fitter.measurement.anthropometry import measuring_body, tape_lines
 from fitter.measurement.definitions import (
-    Agreement,
+    DEFINITIONS_PATH,
     Extent,
     Height,
-    IsoDefinition,
     Length,
-    MeasurementDefinition,
-    SurveyDefinition,
-    load_definitions,
 )
 from fitter.observation.pixels import display_from_linear
 from fitter.render.camera import Camera
@@ -57,10 +55,7 @@ report` prints how far values, spreads and correlations are from the survey's.
 ATLAS_FOLDER = "fitter/measurement/atlas"
 """From the page, at the root of the repository: a picture of each group's tapes on the body."""
 
-_AGREEMENT = {
-    Agreement.SAME: "as there",
-    Agreement.DIFFERS: "differs",
-}
+_AGREEMENT = {"same": "As there", "differs": "Differs"}
 
 
 def sheet_name(group: Group) -> str:
@@ -68,11 +63,16 @@ def sheet_name(group: Group) -> str:
     return f"{group.name.lower()}.webp"
 
 
-def measurements_page(definitions: Sequence[MeasurementDefinition]) -> str:
+def described() -> list[dict[str, Any]]:
+    """The measurements as their file describes them."""
+    return json.loads(DEFINITIONS_PATH.read_text(encoding="utf-8"))["measurements"]
+
+
+def measurements_page() -> str:
     """The page, in Markdown."""
     lines = [_HEADING]
     for group in Group:
-        members = [each for each in definitions if group_of(each.about.name) is group]
+        members = [each for each in described() if group_of(each["name"]) is group]
         lines += [
             f"## {group.value}\n",
             f"![Each tape on the body, under its name]({ATLAS_FOLDER}/{sheet_name(group)})\n",
@@ -84,27 +84,22 @@ def measurements_page(definitions: Sequence[MeasurementDefinition]) -> str:
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _row(definition: MeasurementDefinition) -> str:
-    about = definition.about
+def _row(entry: Mapping[str, Any]) -> str:
+    iso, survey = entry.get("iso"), entry["survey"]
+    fields = " + ".join(f"`{field}`" for field in survey["fields"])
     return (
-        f"| `{about.name}` ({about.unit.value}) | {about.definition} | {_iso(about.iso)} | "
-        f"{_survey(about.survey)} |"
+        f"| `{entry['name']}` ({entry['unit']}) | {entry['definition']} | "
+        f"{'-' if iso is None else _compared(iso['term'] + _clause(iso), iso)} | "
+        f"{_compared(fields, survey) if fields else '-'} |"
     )
 
 
-def _iso(iso: IsoDefinition | None) -> str:
-    if iso is None:
-        return "-"
-    clause = "" if iso.clause is None else f" ({iso.clause})"
-    return f"{iso.term}{clause}. *{_AGREEMENT[iso.agreement].capitalize()}:* {iso.difference}"
+def _clause(iso: Mapping[str, Any]) -> str:
+    return f" ({iso['clause']})" if "clause" in iso else ""
 
 
-def _survey(survey: SurveyDefinition) -> str:
-    if survey.agreement is Agreement.ABSENT:
-        return "-"
-    fields = " + ".join(f"`{field}`" for field in survey.fields)
-    agreement = _AGREEMENT[survey.agreement].capitalize()
-    return f"{fields}. *{agreement}:* {survey.difference}"
+def _compared(there: str, other: Mapping[str, Any]) -> str:
+    return f"{there}. *{_AGREEMENT[other['agreement']]}:* {other['difference']}"
 
 
 GENDER = "female"
@@ -188,7 +183,7 @@ def atlas_sheets() -> Mapping[Group, Levels]:
 
 def main() -> None:
     """Write the page and the sheets."""
-    (ROOT / "MEASUREMENTS.md").write_text(measurements_page(load_definitions()), encoding="utf-8")
+    (ROOT / "MEASUREMENTS.md").write_text(measurements_page(), encoding="utf-8")
     for group, levels in atlas_sheets().items():
         encoded, content = cv2.imencode(
             ".webp", levels[:, :, ::-1], (cv2.IMWRITE_WEBP_QUALITY, WEBP_QUALITY)

@@ -5,7 +5,6 @@ import pytest
 from fitter.fits.usable_model import NEEDED_PARTS
 from fitter.measurement.definitions import (
     JOINT_PREFIX,
-    Agreement,
     Contour,
     Extent,
     Girth,
@@ -15,7 +14,12 @@ from fitter.measurement.definitions import (
     parts_of,
 )
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
-from tests.evaluation.measurements_page import ATLAS_FOLDER, measurements_page, sheet_name
+from tests.evaluation.measurements_page import (
+    ATLAS_FOLDER,
+    described,
+    measurements_page,
+    sheet_name,
+)
 
 REQUIRED = {
     "stature",
@@ -46,11 +50,11 @@ def test_every_measurement_promised_is_defined_with_its_source():
 
 
 def test_every_measurement_says_how_it_stands_to_the_surveys():
-    for definition in load_definitions():
-        survey = definition.about.survey
-        assert survey.definition.endswith("."), definition.about.name
-        assert survey.difference.endswith("."), definition.about.name
-        assert bool(survey.fields) == (survey.agreement is not Agreement.ABSENT)
+    for entry in described():
+        survey = entry["survey"]
+        assert survey["definition"].endswith("."), entry["name"]
+        assert survey["difference"].endswith("."), entry["name"]
+        assert bool(survey["fields"]) == (survey["agreement"] != "absent")
 
 
 def test_every_measurement_has_a_name_of_its_own():
@@ -109,12 +113,12 @@ PAGE = Path(__file__).parents[3] / "MEASUREMENTS.md"
 
 
 def test_the_page_of_measurements_is_the_one_the_definitions_make():
-    assert PAGE.read_text(encoding="utf-8") == measurements_page(load_definitions())
+    assert PAGE.read_text(encoding="utf-8") == measurements_page()
 
 
 def test_every_measurement_has_one_row_with_four_cells():
     definitions = load_definitions()
-    rows = [line for line in measurements_page(definitions).splitlines() if line.startswith("| `")]
+    rows = [line for line in measurements_page().splitlines() if line.startswith("| `")]
     assert len(rows) == len(definitions)
     for row, definition in zip(rows, definitions, strict=True):
         assert row.startswith(f"| `{definition.about.name}`")
@@ -123,16 +127,14 @@ def test_every_measurement_has_one_row_with_four_cells():
 
 def test_a_measurement_stands_with_its_clause_and_its_field():
     (row,) = [
-        line
-        for line in measurements_page(load_definitions()).splitlines()
-        if line.startswith("| `neck_girth`")
+        line for line in measurements_page().splitlines() if line.startswith("| `neck_girth`")
     ]
     assert "Neck girth (5.3.2)" in row
     assert "`neckcircumference`" in row
 
 
 def test_every_group_has_its_picture():
-    page = measurements_page(load_definitions())
+    page = measurements_page()
     for group in Group:
         assert f"({ATLAS_FOLDER}/{sheet_name(group)})" in page
         assert (PAGE.parent / ATLAS_FOLDER / sheet_name(group)).is_file()
