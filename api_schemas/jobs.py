@@ -129,6 +129,9 @@ def _usable_secret(secret: str) -> str:
     return secret
 
 
+WebhookSecret = Annotated[str, AfterValidator(_usable_secret)]
+
+
 class WebhookTarget(WireModel):
     """Where to send the notice of the fit's end.
 
@@ -143,7 +146,7 @@ class WebhookTarget(WireModel):
         examples=["https://example.org/hooks/maquette"],
         json_schema_extra={"format": "uri"},
     )
-    secret: Annotated[str, AfterValidator(_usable_secret)] | None = Field(
+    secret: WebhookSecret | None = Field(
         default=None,
         pattern=f"^{SECRET_PREFIX}(?:[A-Za-z0-9+/]{{4}}){{8,21}}(?:[A-Za-z0-9+/]{{4}}|"
         "[A-Za-z0-9+/]{3}=|[A-Za-z0-9+/]{2}==)?$",

@@ -1,28 +1,27 @@
 """Every setting of the service, once. Built in the entry point and passed down.
 
-One table, however long: each setting stands with its bounds and what it means. What a text must be
-to stand for a folder, an address or a list is in :mod:`service.setting_types`.
+One table, however long: each setting stands with its bounds and what it means.
 """
 
+import ipaddress
 import os
 from pathlib import Path
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
+from urllib.parse import urlsplit
 
-from pydantic import Field, ValidationInfo, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
-
-from service.setting_types import (
-    BucketUrl,
-    DatabaseUrl,
-    DetectorFolder,
-    HostNames,
-    ModelFolder,
-    NamedFolder,
-    Origins,
-    WebhookSecret,
-    is_loopback,
-    split_list,
+from pydantic import (
+    AnyUrl,
+    BeforeValidator,
+    DirectoryPath,
+    Field,
+    StringConstraints,
+    UrlConstraints,
+    ValidationInfo,
+    field_validator,
 )
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+from api_schemas.jobs import WebhookSecret
 
 PREFIX: Final = "MAQUETTE_"
 
@@ -41,6 +40,58 @@ SILENT_BEATS: Final = 2.0
 """Heartbeats that may at least go missing before a worker is taken for dead."""
 
 
+POSTGRES: Final = "postgresql"
+NOT_SHOWN: Final = "(not shown)"
+
+DatabaseUrl = Annotated[
+    AnyUrl, UrlConstraints(allowed_schemes=[POSTGRES, "postgres", "postgresql+psycopg"])
+]
+"""All these names of the scheme mean the first."""
+
+BucketUrl = Annotated[
+    str, StringConstraints(pattern=r"^s3://[A-Za-z0-9][A-Za-z0-9._-]{1,253}[A-Za-z0-9](/[^?#]*)?$")
+]
+"""Some server takes such a name: old buckets of Amazon's are longer, or have capitals and _."""
+
+
+def _split_list(value: object) -> object:
+    if not isinstance(value, str):
+        return value
+    return tuple(each.strip() for each in value.split(",") if each.strip())
+
+
+_Listed = BeforeValidator(_split_list)
+Origin = Annotated[str, StringConstraints(pattern=r"^https?://[^/?#\s]+$")]
+HostName = Annotated[
+    str, StringConstraints(pattern=r"^([^:/@\s]+|[^:/@\s]*:[^/@\s]*:[^/@\s]*)$", to_lower=True)
+]
+"""A name or an address, without scheme and port."""
+
+
+def is_loopback(host: str) -> bool:
+    """Say whether an address, or the name ``localhost``, is reached from this machine only."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def without_secrets(url: str) -> str:
+    """Write an address without password and query; nothing of one that cannot be read."""
+    try:
+        parts = urlsplit(url)
+        # Only now it is looked at, and may be no number.
+        _ = parts.port
+    except ValueError:
+        return NOT_SHOWN
+    if "://" not in url:
+        return NOT_SHOWN
+    user, at, host = parts.netloc.rpartition("@")
+    name, colon, _ = user.partition(":")
+    hidden = f"{name}:***" if colon else name
+    return f"{parts.scheme}://{hidden}{at}{host}{parts.path}"
+
+
 class SettingError(Exception):
     """A setting cannot be followed; found out only when it was tried.
 
@@ -56,7 +107,11 @@ class Settings(BaseSettings):
     """Read from environment variables named ``MAQUETTE_`` and the field's name in capitals."""
 
     model_config = SettingsConfigDict(
-        env_prefix=PREFIX, frozen=True, extra="forbid", allow_inf_nan=False
+        env_prefix=PREFIX,
+        env_ignore_empty=True,
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
     )
 
     host: str = Field(default="127.0.0.1", description="Address the API listens on.")
@@ -69,11 +124,11 @@ class Settings(BaseSettings):
             "tenant, and the service listens on loopback addresses only."
         ),
     )
-    cors_origins: Origins = Field(
-        default="",
+    cors_origins: Annotated[tuple[Origin, ...], NoDecode, _Listed] = Field(
+        default=(),
         description="Origins whose pages may call the API from a browser, separated by commas.",
     )
-    data_dir: NamedFolder = Field(
+    data_dir: Path = Field(
         default=Path("maquette-data"),
         description="Folder of the embedded database, the pictures and the results.",
     )
@@ -90,11 +145,11 @@ class Settings(BaseSettings):
             "so on); the data folder if unset."
         ),
     )
-    models_dir: ModelFolder | None = Field(
+    models_dir: DirectoryPath | None = Field(
         default=None,
         description="Folder with `female.npz` and `male.npz`; the packaged body models if unset.",
     )
-    detector_dir: DetectorFolder | None = Field(
+    detector_dir: DirectoryPath | None = Field(
         default=None,
         description=(
             "Folder with `pose_detection.tflite`, `pose_landmark_full.tflite` and "
@@ -172,8 +227,8 @@ class Settings(BaseSettings):
             "bring no secret of their own; those are refused if unset."
         ),
     )
-    webhook_hosts: HostNames = Field(
-        default="",
+    webhook_hosts: Annotated[tuple[HostName, ...], NoDecode, _Listed] = Field(
+        default=(),
         description=(
             "Hosts, separated by commas, that notices may be sent to at any port, even if their "
             "addresses are not public: for development and for receivers on the same network."
@@ -299,17 +354,9 @@ class Settings(BaseSettings):
     @property
     def system_database_url(self) -> str:
         """The database of jobs: the one named, or the embedded one."""
-        return self.database_url or f"sqlite:///{self.database_file}"
-
-    @property
-    def allowed_origins(self) -> tuple[str, ...]:
-        """Origins of other sites whose pages may call the API."""
-        return split_list(self.cors_origins)
-
-    @property
-    def allowed_webhook_hosts(self) -> tuple[str, ...]:
-        """Hosts that notices may be sent to wherever they are."""
-        return split_list(self.webhook_hosts.lower())
+        if self.database_url is None:
+            return f"sqlite:///{self.database_file}"
+        return POSTGRES + str(self.database_url).removeprefix(self.database_url.scheme)
 
     @property
     def tenant_queue_limit(self) -> int:
@@ -329,4 +376,7 @@ class Settings(BaseSettings):
     def environment(self) -> dict[str, str]:
         """Write these settings as the environment of another process that is to share them."""
         values = self.model_dump(mode="json", exclude_none=True)
-        return {f"{PREFIX}{name.upper()}": str(value) for name, value in values.items()}
+        return {
+            f"{PREFIX}{name.upper()}": ",".join(value) if isinstance(value, list) else str(value)
+            for name, value in values.items()
+        }

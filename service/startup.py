@@ -1,19 +1,17 @@
 """How every command starts and ends: unusable settings are reported in one line."""
 
 import argparse
-import difflib
 import logging
 import os
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, Final
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from service.process.logs import configure_logging
-from service.setting_types import NOT_SHOWN, without_secrets
-from service.settings import PREFIX, SettingError, Settings
+from service.settings import NOT_SHOWN, PREFIX, SettingError, Settings, without_secrets
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -64,10 +62,8 @@ def _read_settings(command: str, options: Mapping[str, object]) -> Settings:
 
 
 def _warn_of_unknown_names() -> None:
-    """Say which variables look like settings but are not."""
-    for name, meant in unknown_names(os.environ).items():
-        hint = "it is ignored" if meant is None else f"did you mean {meant}?"
-        LOG.warning("There is no setting %s; %s", name, hint)
+    for name in unknown_names(os.environ):
+        LOG.warning("There is no setting %s; it is ignored.", name)
 
 
 def _run(command: str, work: Work, settings: Settings) -> int:
@@ -105,16 +101,6 @@ ADDRESSES: Final = frozenset({"database_url", "blob_url"})
 SECRETS: Final = frozenset({"webhook_secret"})
 
 LONGEST_SHOWN: Final = 200
-LIKENESS: Final = 0.6
-"""How similar a name, after the prefix, must be to one of ours to be taken for a misspelling."""
-
-_BOUNDS: Final[Mapping[str, str]] = {
-    "greater_than": "it must be above {gt:g}",
-    "greater_than_equal": "it must be at least {ge:g}",
-    "less_than": "it must be below {lt:g}",
-    "less_than_equal": "it must be at most {le:g}",
-    "finite_number": "it must be a finite number",
-}
 
 
 def fault_lines(error: ValidationError, *, options: Collection[str] = ()) -> Iterator[str]:
@@ -126,20 +112,14 @@ def fault_lines(error: ValidationError, *, options: Collection[str] = ()) -> Ite
         yield f"{label}={_shown(name, fault['input'])}: {_reason(name, fault)}."
 
 
-def unknown_names(environment: Mapping[str, str]) -> dict[str, str | None]:
-    """Variables named like settings that are none, each with the setting that may be meant."""
-    known = [name.upper() for name in Settings.model_fields]
-    named = {
-        name: name.upper().removeprefix(PREFIX)
+def unknown_names(environment: Mapping[str, str]) -> list[str]:
+    """Variables named like settings that are none."""
+    known = {PREFIX + name.upper() for name in Settings.model_fields}
+    return [
+        name
         for name in sorted(environment)
-        if name.upper().startswith(PREFIX)
-    }
-    return {name: _nearest(slip, known) for name, slip in named.items() if slip not in known}
-
-
-def _nearest(slip: str, known: Sequence[str]) -> str | None:
-    found = difflib.get_close_matches(slip, known, n=1, cutoff=LIKENESS)
-    return PREFIX + found[0] if found else None
+        if name.upper().startswith(PREFIX) and name.upper() not in known
+    ]
 
 
 def _shown(name: str, value: object) -> str:
@@ -157,15 +137,11 @@ def _reason(name: str, fault: ErrorDetails) -> str:
         return str(context["error"])
     if "remedy" in context:  # a refusal of our own
         return f"{context['reason'].rstrip('.')}. {context['remedy'].rstrip('.')}"
-    if fault["type"] in _BOUNDS:
-        reason = _BOUNDS[fault["type"]].format_map(context)
-    else:
-        reason = fault["msg"][:1].lower() + fault["msg"][1:]
-    return f"{reason}; {_way_out(name)}"
+    return f"{fault['msg']}; {_way_out(name)}"
 
 
 def _way_out(name: str) -> str:
     field = Settings.model_fields.get(name)
-    if field is None or field.default is None or field.default_factory is not None:
+    if field is None or field.default in (None, ()) or field.default_factory is not None:
         return "correct it, or unset it"
     return f"correct it, or unset it for the default, {field.default}"

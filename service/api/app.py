@@ -149,18 +149,18 @@ def _surround(app: FastAPI, *, settings: Settings, keys: KeyRing, metrics: Servi
         rate_limit = RateLimit(per_minute=settings.requests_per_minute)
         app.add_middleware(Authentication, keys=keys, rate_limit=rate_limit)
     else:
-        app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
+        app.add_middleware(LocalGuard, allowed_origins=settings.cors_origins)
     app.add_middleware(
         BodyLimits,
         max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES,
         time_limit_s=settings.body_time_limit_s,
     )
-    if settings.allowed_origins:
+    if settings.cors_origins:
         # Outside of what refuses: browsers read only answers with its headers, and send their
         # preflight requests without a key.
         app.add_middleware(
             CORSMiddleware,
-            allow_origins=settings.allowed_origins,
+            allow_origins=settings.cors_origins,
             allow_methods=CORS_METHODS,
             allow_headers=CORS_REQUEST_HEADERS,
             expose_headers=CORS_ANSWER_HEADERS,
@@ -172,7 +172,7 @@ def _surround(app: FastAPI, *, settings: Settings, keys: KeyRing, metrics: Servi
         exclude_content_types=LEFT_AS_THEY_ARE,
     )
     app.add_middleware(RequestLimit)
-    app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
+    app.add_middleware(SecurityHeaders, cross_origin=bool(settings.cors_origins))
     app.add_middleware(HeadAsGet)
     app.add_middleware(Observation, metrics=metrics)
 

@@ -24,7 +24,7 @@ from service.api.limits import RateLimit
 from service.api.problems import ProblemError, problem_error, problem_response
 from service.jobs.keys import ApiKey, KeyRing, Role, hash_key
 from service.jobs.records import EngineUnavailableError
-from service.setting_types import is_loopback
+from service.settings import is_loopback
 
 LOG: Final = logging.getLogger(__name__)
 

@@ -128,7 +128,7 @@ def serve(
         blobs,
         represent,
         secret=settings.webhook_secret,
-        allowed_hosts=settings.allowed_webhook_hosts,
+        allowed_hosts=settings.webhook_hosts,
     )
     notices = NoticeRunner(database, sender.send)
     draining = threading.Event()

@@ -112,7 +112,7 @@ def target_fault(target: WebhookTarget, settings: Settings) -> FieldProblem | No
             reason="This is no address of a web server.",
             remedy="Send an address such as https://example.org/hooks/maquette.",
         )
-    allowed_hosts = settings.allowed_webhook_hosts
+    allowed_hosts = settings.webhook_hosts
     if is_refused_outright(url.host, allowed_hosts):
         return FieldProblem(
             field="webhook.url",

@@ -25,7 +25,7 @@ from service.process.data_folder import (
     tighten,
 )
 from service.process.retrying import retry_with_pauses
-from service.setting_types import without_secrets
+from service.settings import without_secrets
 
 P = ParamSpec("P")
 T = TypeVar("T")

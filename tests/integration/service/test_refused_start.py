@@ -15,8 +15,8 @@ import psycopg
 import pytest
 
 import fitter.body
+from fitter.detection.weights import FILES
 from service.cli import main
-from service.setting_types import DETECTOR_FILES
 from tests.integration.service.harness import QUICK, Machine, eventually
 from tests.object_storage import variable
 from tests.postgres import SERVER, administration
@@ -100,7 +100,7 @@ def list_keys(
 @pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, KEYS, HEALTH, ESTIMATORS])
 def test_no_command_begins_with_an_endless_time(command: Sequence[str], tmp_path: Path):
     done = run(command, tmp_path / "data", retention_hours="inf")
-    assert_refused(done, naming="MAQUETTE_RETENTION_HOURS=inf: it must be a finite number")
+    assert_refused(done, naming="MAQUETTE_RETENTION_HOURS=inf: Input should be a finite number")
     assert not (tmp_path / "data").exists()
 
 
@@ -129,7 +129,7 @@ def test_a_database_that_does_not_exist_is_refused(command: Sequence[str], tmp_p
 @pytest.mark.parametrize(
     ("url", "told"),
     [
-        (f"mysql://user:{SECRET}@127.0.0.1/name", "only Postgres"),
+        (f"mysql://user:{SECRET}@127.0.0.1/name", "URL scheme should be"),
         (f"postgresql://nobody_here:{SECRET}@127.0.0.1:5432/postgres", "does not exist"),
         (f"{SERVER}/postgres?sslmode=require", "SSL"),
         (f"{SERVER}/postgres?no_such_option=1", "no_such_option"),
@@ -207,8 +207,8 @@ def test_a_folder_without_the_detector_s_weights_is_refused(tmp_path: Path):
 def test_weights_that_are_others_are_refused(command: Sequence[str], tmp_path: Path):
     folder = tmp_path / "detector"
     folder.mkdir()
-    for name in DETECTOR_FILES:
-        (folder / name).write_bytes(b"something else")
+    for each in FILES:
+        (folder / each.name).write_bytes(b"something else")
     done = run(command, tmp_path / "data", detector_dir=folder)
     line = assert_refused(done, naming=f"MAQUETTE_DETECTOR_DIR={folder}:")
     assert "another file" in line

@@ -10,9 +10,10 @@ from service.compute.pipeline import fit_task
 from service.compute.tasks import OPTIONS, ChildSetup, UnusableInputError
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture, named_pictures
-from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions.submission import detector_is_installed
+
+DETECTOR_FILES = tuple(each.name for each in weights.FILES)
 
 
 def test_a_folder_counts_once_it_has_the_files(tmp_path: Path):

@@ -12,8 +12,8 @@ import pytest
 import yaml
 from packaging.requirements import Requirement
 
+from fitter.detection.weights import FILES
 from service.cli import parse
-from service.setting_types import DETECTOR_FILES
 from service.settings import PREFIX, Settings
 
 REPOSITORY = Path(__file__).parents[3]
@@ -76,9 +76,7 @@ def test_every_variable_of_ours_is_a_setting_of_a_value_that_can_be_followed(
             monkeypatch.delenv(name)
     for name, value in ours.items():
         monkeypatch.setenv(name, value)
-    # This folder is the image's own: here is one with the files that are put there.
-    for name in DETECTOR_FILES:
-        (tmp_path / name).touch()
+    # This folder is the image's own.
     monkeypatch.setenv(f"{PREFIX}DETECTOR_DIR", str(tmp_path))
     settings = Settings()
     assert settings.authentication == "keys"
@@ -90,7 +88,7 @@ def test_the_detector_s_files_lie_where_the_image_says():
     folder = image_environment()[f"{PREFIX}DETECTOR_DIR"]
     words = installed[installed.index(f"-t {folder}") :].split()
     files = [Path(each).name for each in words if each.endswith(".tflite")]
-    assert tuple(files) == DETECTOR_FILES
+    assert files == [each.name for each in FILES]
 
 
 def test_every_command_is_one_of_ours():

@@ -19,12 +19,10 @@ def test_settings_survive_the_way_through_the_environment(monkeypatch):
     assert Settings() == settings
 
 
-def test_a_folder_of_models_must_hold_both(tmp_path):
-    (tmp_path / "female.npz").touch()
-    with pytest.raises(ValidationError, match=r"no male\.npz"):
-        Settings(models_dir=tmp_path)
-    (tmp_path / "male.npz").touch()
-    assert Settings(models_dir=tmp_path).models_dir == tmp_path
+def test_an_empty_variable_counts_as_unset(monkeypatch):
+    for name in Settings.model_fields:
+        monkeypatch.setenv(PREFIX + name.upper(), "")
+    assert Settings() == Settings.model_construct()
 
 
 def test_every_setting_says_what_it_is_for():
@@ -50,7 +48,7 @@ def test_the_documents_list_every_setting_with_default_and_meaning_and_no_other(
         default, meaning = listed[PREFIX + name.upper()]
         assert meaning == field.description, name
         if field.default_factory is None:
-            shown = "" if field.default in (None, "") else f"`{field.default}`"
+            shown = "" if field.default in (None, ()) else f"`{field.default}`"
             assert default == shown, name
 
 
@@ -65,30 +63,30 @@ def test_without_keys_only_this_machine_is_listened_to():
 
 def test_origins_are_read_as_a_list_and_a_page_is_no_origin():
     settings = Settings(cors_origins="https://a.example, http://localhost:5173")
-    assert settings.allowed_origins == ("https://a.example", "http://localhost:5173")
-    with pytest.raises(ValidationError, match="origin"):
+    assert settings.cors_origins == ("https://a.example", "http://localhost:5173")
+    with pytest.raises(ValidationError, match="cors_origins"):
         Settings(cors_origins="https://a.example/page")
-    with pytest.raises(ValidationError, match="origin"):
+    with pytest.raises(ValidationError, match="cors_origins"):
         Settings(cors_origins="*")
 
 
 def test_object_storage_is_named_by_bucket():
     assert Settings(blob_url="s3://bucket/prefix").blob_url == "s3://bucket/prefix"
-    with pytest.raises(ValidationError, match="s3://"):
+    with pytest.raises(ValidationError, match="blob_url"):
         Settings(blob_url="https://bucket")
 
 
 @pytest.mark.parametrize(
-    "name", ["b", "no bucket", "-bucket", "bucket_", "a..b", "key@bucket", "bucket:9000", "a" * 256]
+    "name", ["b", "no bucket", "-bucket", "bucket_", "key@bucket", "bucket:9000", "a" * 256]
 )
 def test_a_bucket_that_no_server_takes_is_refused(name: str):
-    with pytest.raises(ValidationError, match=r"no bucket can be named|s3://bucket/prefix"):
+    with pytest.raises(ValidationError, match="blob_url"):
         Settings(blob_url=f"s3://{name}")
 
 
 @pytest.mark.parametrize("url", ["s3://bucket?x=1", "s3://bucket#x"])
 def test_a_bucket_has_no_more_than_a_prefix(url: str):
-    with pytest.raises(ValidationError, match="s3://bucket/prefix"):
+    with pytest.raises(ValidationError, match="blob_url"):
         Settings(blob_url=url)
 
 
@@ -145,20 +143,15 @@ def test_a_postgres_database_may_be_called_by_its_short_name(scheme: str):
     "url", ["", "mysql://host/name", "sqlite:///file", "host/name", "postgresql://host:many/name"]
 )
 def test_another_database_is_refused(url: str):
-    with pytest.raises(ValidationError, match="postgresql://"):
+    with pytest.raises(ValidationError, match="database_url"):
         Settings(database_url=url)
 
 
 @pytest.mark.parametrize("hosts", ["https://host", "host:8080", "a.example, b.example/hook"])
 def test_hosts_for_notices_are_names_alone(hosts: str):
-    with pytest.raises(ValidationError, match="is no host"):
+    with pytest.raises(ValidationError, match="webhook_hosts"):
         Settings(webhook_hosts=hosts)
-    assert Settings(webhook_hosts="localhost, 127.0.0.1, ::1").allowed_webhook_hosts
-
-
-def test_a_data_folder_has_a_name():
-    with pytest.raises(ValidationError, match="name a folder"):
-        Settings(data_dir="")
+    assert Settings(webhook_hosts="localhost, 127.0.0.1, ::1").webhook_hosts
 
 
 def test_the_secret_of_notices_is_checked_and_not_shown():
@@ -177,10 +170,10 @@ def lines(*, options: tuple[str, ...] = (), **given: object) -> list[str]:
 def test_a_fault_names_variable_value_and_remedy_in_one_line():
     way_out = "correct it, or unset it for the default"
     assert lines(retention_hours="inf") == [
-        f"MAQUETTE_RETENTION_HOURS=inf: it must be a finite number; {way_out}, 168.0."
+        f"MAQUETTE_RETENTION_HOURS=inf: Input should be a finite number; {way_out}, 168.0."
     ]
     assert lines(heartbeat_s="1e308") == [
-        f"MAQUETTE_HEARTBEAT_S=1e308: it must be at most 3600; {way_out}, 2.0."
+        f"MAQUETTE_HEARTBEAT_S=1e308: Input should be less than or equal to 3600; {way_out}, 2.0."
     ]
 
 
@@ -217,20 +210,12 @@ def test_secrets_are_not_shown(name: str, value: str):
 def test_the_user_and_host_of_a_database_are_shown():
     (line,) = lines(database_url="mysql://user:secret@host:3306/name")
     assert "mysql://user:***@host:3306/name" in line
-    assert "postgresql://" in line
+    assert "'postgresql'" in line
 
 
-def test_a_slip_of_a_name_is_told_with_the_nearest_name():
-    environment = {
-        "MAQUETTE_RETENTION_HUORS": "1",
-        "MAQUETTE_PORT": "8000",
-        "maquette_port": "8000",
-        "maquette_datadir": "somewhere",
-        "MAQUETTE_ZZZ": "1",
-        "PATH": "/bin",
-    }
-    assert unknown_names(environment) == {
-        "MAQUETTE_RETENTION_HUORS": "MAQUETTE_RETENTION_HOURS",
-        "MAQUETTE_ZZZ": None,
-        "maquette_datadir": "MAQUETTE_DATA_DIR",
-    }
+def test_names_of_no_setting_are_found():
+    environment = dict.fromkeys(
+        ("MAQUETTE_RETENTION_HUORS", "MAQUETTE_PORT", "maquette_port", "maquette_datadir", "PATH"),
+        "",
+    )
+    assert unknown_names(environment) == ["MAQUETTE_RETENTION_HUORS", "maquette_datadir"]
