@@ -64,14 +64,11 @@ class PoseHypothesis:
         deviations.
     facing
         By limb name: which way the limb faces here.
-    flipped
-        Limbs that face the opposite way from the best hypothesis.
     """
 
     parameters: BodyParameters
     energy: float
     facing: Mapping[str, Facing]
-    flipped: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -223,16 +220,18 @@ def _in_front(rig: LandmarkRig, fitted: FittedPoses) -> FittedPoses:
 
 
 def _described(rig: LandmarkRig, shape: Shape, fitted: FittedPoses) -> tuple[PoseHypothesis, ...]:
-    facings = limb_facings(rig, fitted)
     return tuple(
         PoseHypothesis(
             parameters=BodyParameters(pose=pose, translation=translation, shape=shape.copy()),
             energy=float(energy),
             facing=facing,
-            flipped=tuple(name for name in facing if facing[name] is not facings[0][name]),
         )
         for pose, translation, energy, facing in zip(
-            fitted.pose, fitted.translation, fitted.energy, facings, strict=True
+            fitted.pose,
+            fitted.translation,
+            fitted.energy,
+            limb_facings(rig, fitted),
+            strict=True,
         )
     )
 
