@@ -71,7 +71,7 @@ def test_a_product_is_asked_for_and_its_files_come_out(either: Service):
     assert (accepted.links.fit, accepted.links.files, accepted.result) == (fit, {}, None)
     product = service.ended(path)
     assert (product["state"], product["progress"], product["kind"]) == ("succeeded", 1.0, "pose")
-    assert product["result"] == {"kind": "pose", "pose": [], "colours": "plain"}
+    assert product["result"] == {"kind": "pose", "pose": {}, "colours": "plain"}
     assert set(product["links"]["files"]) == {"body_reposed.glb", "pose.png"}
     glb = service.client.get(product["links"]["files"]["body_reposed.glb"])
     assert (glb.headers["content-type"], glb.content[:4]) == ("model/gltf-binary", b"glTF")
