@@ -61,9 +61,11 @@ def test_erasing_a_scope_leaves_its_neighbours(blobs, storage):
     digest = blobs.put("job-1", b"picture")
     blobs.put("job-1", b"result")
     blobs.put("job-10", b"picture")
+    assert sorted(blobs.scopes()) == ["job-1", "job-10"]
     blobs.erase("job-1")
     with pytest.raises(BlobMissingError):
         blobs.get("job-1", digest)
+    assert list(blobs.scopes()) == ["job-10"]
     assert storage.object_names() == [f"blobs/job-10/{digest}"]
 
 
