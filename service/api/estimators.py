@@ -17,7 +17,6 @@ from service.compute.messages import DoneMessage, ProblemMessage, TaskMessage
 from service.compute.questions import FILE, QUESTION, BodyTask, ConversionTask
 from service.compute.tasks import Parts
 from service.process.logs import current_log_context
-from service.representation.formats import MeshFormat
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import DETECTOR_MISSING
 
@@ -104,9 +103,9 @@ class Estimators:
                 question=label or name, outcome=outcome, seconds=time.monotonic() - started
             )
 
-    async def convert(self, glb: bytes, kind: MeshFormat) -> bytes:
-        """Write the body of a GLB file in another format; raises as :meth:`answer` does."""
-        task = ConversionTask(ending=kind.ending)
+    async def convert(self, glb: bytes, ending: str) -> bytes:
+        """Write the body of a GLB file in the format of an ending; raises as :meth:`answer`."""
+        task = ConversionTask(ending=ending)
         return (await self.answer(questions.CONVERSION, task, glb))[FILE]
 
     async def jpeg(self, image: bytes) -> bytes:

@@ -12,23 +12,36 @@ from typing import Annotated, Any, Final
 
 from fastapi import Depends, Header, Path, Response
 
+from api_schemas.csv_tables import CSV, TABLE, measurements_csv_of
 from api_schemas.jobs import JobState
 from api_schemas.problems import shortened
 from service.api.context import ApiContext
-from service.api.headers import STAND_ALONE
 from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import JSON
 from service.jobs.inputs import IMAGE, RESULT
 from service.jobs.records import StoredBlob
-from service.representation.csv_tables import CSV, TABLE, measurements_csv_of
-from service.representation.formats import (
-    GLB,
-    GLB_ENDING,
-    MESH_FORMATS,
-    MTL,
-    MeshFormat,
-    tag_of,
+from service.version import VERSION
+
+GLB_ENDING: Final = ".glb"
+GLB: Final = "model/gltf-binary"
+"""The format that meshes are stored in."""
+
+MESH_FORMATS: Final[Mapping[str, str]] = {
+    "obj": "model/obj",
+    "ply": "model/ply",
+    "stl": "model/stl",
+}
+"""Media types by the endings of the formats that :func:`fitter.export.formats.converted` writes
+from a GLB. IANA lists all but ``model/ply``, which many use."""
+
+MATERIAL: Final[Mapping[str, str]] = {"mtl": "model/mtl"}
+"""That of a textured OBJ."""
+
+STAND_ALONE: Final = (
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
 )
+"""The policy of self-contained documents: they show what is inside, run and load nothing."""
 
 HTML: Final = "text/html"
 JPEG: Final = "image/jpeg"
@@ -90,7 +103,7 @@ def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, 
 
     ``problems`` are those that may keep a caller from what has the file.
     """
-    meshes = (GLB, *(each.media_type for each in (*MESH_FORMATS.values(), MTL)))
+    meshes = (GLB, *MESH_FORMATS.values(), *MATERIAL.values())
     content = dict.fromkeys((*media_types, *meshes, CSV), BINARY)
     return (
         {
@@ -121,7 +134,7 @@ def is_known(tag: str, if_none_match: str | None) -> bool:
 class Rendition:
     """A file that can be requested.
 
-    ``source`` is the stored file that it is or is written from; ``mesh_format`` is the format of a
+    ``source`` is the stored file that it is or is written from; ``mesh_format`` is the ending of a
     mesh that is not stored. ``tag`` identifies its bytes; ``by_accept`` says that the answer
     depends on the Accept header.
     """
@@ -129,7 +142,7 @@ class Rendition:
     media_type: str
     tag: str
     source: StoredBlob
-    mesh_format: MeshFormat | None = None
+    mesh_format: str | None = None
     by_accept: bool = False
 
 
@@ -163,20 +176,19 @@ def picture_rendition(picture: StoredBlob, *, accept: str | None) -> Rendition:
 
 def renditions(files: Mapping[str, StoredBlob]) -> Iterator[tuple[str, Rendition]]:
     """All files that can be requested by their names, each followed by its other formats."""
-    written = list(MESH_FORMATS.values())
-    if not TEXTURE_FILES.isdisjoint(files):
-        written.append(MTL)
+    written = MESH_FORMATS if TEXTURE_FILES.isdisjoint(files) else {**MESH_FORMATS, **MATERIAL}
     for name, file in files.items():
         yield name, Rendition(media_type=file.media_type, tag=file.digest, source=file)
         if name.endswith(GLB_ENDING):
-            for each in written:
+            for ending, media_type in written.items():
                 yield (
-                    f"{name.removesuffix(GLB_ENDING)}.{each.ending}",
+                    f"{name.removesuffix(GLB_ENDING)}.{ending}",
                     Rendition(
-                        media_type=each.media_type,
-                        tag=tag_of(file.digest, each),
+                        media_type=media_type,
+                        # Another release may write other bytes.
+                        tag=f"{file.digest}-{ending}-{VERSION}",
                         source=file,
-                        mesh_format=each,
+                        mesh_format=ending,
                     ),
                 )
     if RESULT in files:

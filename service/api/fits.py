@@ -1,6 +1,7 @@
 """Fits: list, look at, follow, cancel and erase them; their requests, results and files."""
 
 from collections.abc import AsyncIterator
+from datetime import UTC, datetime
 from functools import partial
 from typing import Annotated, Final
 from uuid import UUID
@@ -9,7 +10,7 @@ from fastapi import APIRouter, Depends, Query, Response
 from fastapi.responses import StreamingResponse
 
 from api_schemas.fit import FitRequest
-from api_schemas.jobs import Fit, FitPage, JobState
+from api_schemas.jobs import Fit, FitLinks, FitPage, JobState
 from api_schemas.labels import Label
 from api_schemas.problems import Problem, problem
 from api_schemas.results import FitResult
@@ -34,7 +35,12 @@ from service.api.storage import erase_blobs, stored_content, writing
 from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
 from service.jobs.records import ACTIVE, TERMINAL, JobRecord
-from service.representation.jobs import FITS, POLL_AFTER_S, represent
+
+FITS: Final = "/v1/fits"
+"""Path of the fits below the service's root."""
+
+POLL_AFTER_S: Final = 1
+"""What Retry-After says for a fit that has not ended."""
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
@@ -248,3 +254,46 @@ def _tag(record: JobRecord) -> str:
     """An entity tag that changes with everything that is shown of the fit."""
     parts = [record.last_event, int(record.cancel_requested)]
     return f'W/"{"-".join(map(str, parts))}"'
+
+
+def fit_path(fit_id: str) -> str:
+    """Path of a fit below the service's root."""
+    return f"{FITS}/{fit_id}"
+
+
+def represent(record: JobRecord) -> Fit:
+    """Translate a record."""
+    return Fit(
+        id=UUID(record.id),
+        state=record.state,
+        stage=record.stage,
+        view=record.view,
+        progress=record.progress,
+        attempt=record.attempt,
+        cancel_requested=record.cancel_requested,
+        created_at=_moment(record.created_at),
+        started_at=None if record.started_at is None else _moment(record.started_at),
+        finished_at=None if record.finished_at is None else _moment(record.finished_at),
+        expires_at=None if record.expires_at is None else _moment(record.expires_at),
+        problem=record.problem,
+        label=record.label,
+        links=_links(record),
+    )
+
+
+def _links(record: JobRecord) -> FitLinks:
+    path = fit_path(record.id)
+    succeeded = record.state is JobState.SUCCEEDED
+    return FitLinks(
+        self=path,
+        events=f"{path}/events",
+        request=f"{path}/request",
+        cancel=f"{path}/cancel" if record.state in ACTIVE else None,
+        result=f"{path}/result" if succeeded else None,
+        products=f"{path}/products" if succeeded else None,
+        files={name: f"{path}/files/{name}" for name in record.files},
+    )
+
+
+def _moment(seconds: float) -> datetime:
+    return datetime.fromtimestamp(seconds, UTC)

@@ -7,16 +7,10 @@ from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.representation.formats import GLB, STL
+from service.api.files import GLB, MESH_FORMATS
 
 NOTHING: Final = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 """The policy of responses that are not pages: in a browser they may load and run nothing."""
-
-STAND_ALONE: Final = (
-    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'"
-)
-"""The policy of self-contained documents: they show what is inside, run and load nothing."""
 
 OWN_FILES: Final = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
@@ -57,7 +51,7 @@ LEFT_AS_THEY_ARE: Final = (
     "application/octet-stream",
     "image/*",
     GLB,
-    STL.media_type,
+    MESH_FORMATS["stl"],
 )
 """Event streams, and what is compressed already or, as floating-point numbers are, hardly gets
 smaller."""

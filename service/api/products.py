@@ -8,14 +8,22 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Final
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
-from api_schemas.products import AnyProductOptions, Product, ProductRequest, product_id
+from api_schemas.products import (
+    AnyProductOptions,
+    Product,
+    ProductLinks,
+    ProductRequest,
+    product_id,
+    product_result,
+)
+from api_schemas.products.base import ProductKind
 from api_schemas.products.bodies import AnimationOptions
 from api_schemas.products.documents import (
     MAX_CHART_BYTES,
@@ -31,7 +39,14 @@ from fitter.errors import InvalidInputError
 from service.api.context import ApiContext, Context
 from service.api.events import Prefer, wait_for_end
 from service.api.files import FORMATS, FileName, Wanted, answer_file, chosen_rendition, file_answers
-from service.api.fits import FIT_PROBLEMS, Found, no_result
+from service.api.fits import (
+    FIT_PROBLEMS,
+    FITS,
+    POLL_AFTER_S,
+    Found,
+    fit_path,
+    no_result,
+)
 from service.api.problems import ProblemError, documented, not_found
 from service.api.requests import (
     JSON,
@@ -47,15 +62,11 @@ from service.api.requests import (
 from service.api.storage import disk_full, erase_at_once, store, stored_content, storing, with_blobs
 from service.api.submissions import accepted_job
 from service.jobs.inputs import CHART, CLIP, RESULT, product_inputs
-from service.jobs.records import ACTIVE, JobRecord, NewJob, Submission, SubmitOutcome
-from service.representation.jobs import FITS, POLL_AFTER_S
-from service.representation.products import (
-    PRODUCTS,
-    product_files,
-    product_path,
-    represent_product,
-)
+from service.jobs.records import ACTIVE, JobRecord, NewJob, StoredBlob, Submission, SubmitOutcome
 from service.submissions.refusal import RefusedError, refused, refused_field
+
+PRODUCTS: Final = "products"
+"""Where they lie below their fit."""
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 
@@ -130,7 +141,7 @@ async def make_product(
     product = await wait_for_end(
         context.feed, context.tenant, product, look, prefer=prefer, response=response
     )
-    response.headers["Location"] = product_path(fit.id, asked)
+    response.headers["Location"] = _path(fit.id, asked)
     if product.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     else:
@@ -166,9 +177,7 @@ async def get_product_file(
 ) -> Response:
     """Return a file."""
     product = await run_in_threadpool(_find, context, fit, product_id)
-    rendition = chosen_rendition(
-        product_files(product), name, state=product.state, accept=wanted.accept
-    )
+    rendition = chosen_rendition(_files(product), name, state=product.state, accept=wanted.accept)
     return await answer_file(
         context, rendition, partial(stored_content, context.blobs, fit.id), wanted
     )
@@ -299,9 +308,37 @@ def _find(context: ApiContext, fit: JobRecord, asked: str) -> JobRecord:
     return product
 
 
-async def _represented(context: ApiContext, product: JobRecord) -> Product:
-    document = product.made.get(RESULT)
+def _path(fit_id: str, product_id: str) -> str:
+    """Path of a product below the service's root."""
+    return f"{fit_path(fit_id)}/{PRODUCTS}/{product_id}"
+
+
+def _files(record: JobRecord) -> dict[str, StoredBlob]:
+    """The files that were made, without what there is to say of them."""
+    return {name: file for name, file in record.made.items() if name != RESULT}
+
+
+async def _represented(context: ApiContext, record: JobRecord) -> Product:
+    """Translate a record, with what there is to say of the product once it is made."""
+    assert record.parent is not None
+    assert record.product is not None
+    path = _path(record.parent, record.product)
+    done = record.state is JobState.SUCCEEDED
     result = None
-    if document is not None:
-        result = await stored_content(context.blobs, product.scope, document)
-    return represent_product(product, result)
+    if RESULT in record.made:
+        document = await stored_content(context.blobs, record.scope, record.made[RESULT])
+        result = product_result(document)
+    return Product(
+        id=record.product,
+        kind=ProductKind(record.kind),
+        fit_id=UUID(record.parent),
+        state=record.state,
+        progress=record.progress,
+        problem=record.problem,
+        result=result,
+        links=ProductLinks(
+            self=path,
+            fit=fit_path(record.parent),
+            files={name: f"{path}/files/{name}" for name in _files(record)} if done else {},
+        ),
+    )

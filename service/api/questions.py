@@ -7,6 +7,7 @@ from typing import Final
 from fastapi import APIRouter, Request, Response
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.csv_tables import CSV, measurements_csv
 from api_schemas.questions import (
     BodyEstimate,
     BodyRequest,
@@ -17,7 +18,7 @@ from api_schemas.questions import (
 )
 from api_schemas.service import BodyModels
 from service.api.context import Context
-from service.api.files import BINARY, AcceptHeader, not_acceptable, preferred
+from service.api.files import BINARY, GLB, MESH_FORMATS, AcceptHeader, not_acceptable, preferred
 from service.api.images import image_content
 from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import (
@@ -35,8 +36,6 @@ from service.api.storage import with_blobs
 from service.compute import questions
 from service.compute.questions import ANSWER, FILE, BodyTask
 from service.jobs.inputs import IMAGE
-from service.representation.csv_tables import CSV, measurements_csv
-from service.representation.formats import GLB, MESH_FORMATS
 from service.submissions.refusal import refused, refused_field
 from service.submissions.submission import (
     checked_points,
@@ -66,8 +65,8 @@ _PARTS: Final = {
     IMAGE: Part(description="JPEG, PNG, WebP or HEIC.", least=1),
     REQUEST: json_part(PointsRequest, least=0),
 }
-_BY_MEDIA_TYPE: Final = {each.media_type: each for each in MESH_FORMATS.values()}
-_FORMS_OF_A_BODY: Final = (JSON, GLB, *_BY_MEDIA_TYPE, CSV)
+_ENDINGS: Final = {media_type: ending for ending, media_type in MESH_FORMATS.items()}
+_FORMS_OF_A_BODY: Final = (JSON, GLB, *_ENDINGS, CSV)
 
 
 @ROUTER.post(
@@ -181,14 +180,14 @@ async def estimate_body(
     if wanted is None:
         raise not_acceptable(accept, what="A body", offered=_FORMS_OF_A_BODY)
     asked = (await read_json(request, BodyRequest)).asked
-    as_mesh = wanted == GLB or wanted in _BY_MEDIA_TYPE
+    as_mesh = wanted == GLB or wanted in _ENDINGS
     task = BodyTask(request=asked, with_glb=as_mesh)
     parts = await context.estimators.answer(questions.BODY, task)
     content, glb = parts[ANSWER], parts[FILE]
     if wanted == GLB:
         content = glb
     elif as_mesh:
-        content = await context.estimators.convert(glb, _BY_MEDIA_TYPE[wanted])
+        content = await context.estimators.convert(glb, _ENDINGS[wanted])
     elif wanted == CSV:
         estimate = BodyEstimate.model_validate_json(content)
         content = measurements_csv(estimate.measurements)

@@ -15,6 +15,7 @@ from api_schemas.problems import Problem, problem
 from api_schemas.questions import BodyRequest
 from service.api.context import ApiContext, Context
 from service.api.events import Prefer, wait_for_end
+from service.api.fits import FITS, POLL_AFTER_S, fit_path, represent
 from service.api.images import image_content
 from service.api.problems import ProblemError, documented, not_found, problem_error
 from service.api.requests import (
@@ -41,7 +42,6 @@ from service.jobs.records import (
     Submission,
     SubmitOutcome,
 )
-from service.representation.jobs import FITS, POLL_AFTER_S, fit_path, represent
 from service.submissions.refusal import of_view, refused, refused_field
 from service.submissions.submission import CheckedSubmission, check_detector, check_submission
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Final, TypeVar
 
+from api_schemas.csv_tables import TABLE, measurements_csv
 from api_schemas.fit import FitRequest
 from api_schemas.problems import Problem, field_problem
 from api_schemas.results import FitResult
@@ -14,7 +15,6 @@ from service.compute.kernels import settle_folders
 from service.compute.tasks import OPTIONS, Parts, UnusableInputError, child_setup, load_tasks
 from service.jobs.inputs import RESULT, SentPicture, named_pictures
 from service.jobs.records import FIT, Report
-from service.representation.csv_tables import TABLE, measurements_csv
 from service.settings import Settings
 from service.startup import UNUSABLE, run_command
 from service.submissions.refusal import RefusedError, parsed

@@ -103,11 +103,11 @@ def serve(
     )
     # Imported while the worker starts: it takes a second.
     from service.api.app import ApiServer, create_app
+    from service.api.fits import represent
     from service.compute.lanes import header_lane
     from service.jobs.engine import JobEngine
     from service.jobs.keys import KeyRing
     from service.jobs.notices import NoticeRunner, Sender
-    from service.representation.jobs import represent
 
     url = settings.system_database_url
     prepare_database(url)

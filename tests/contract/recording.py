@@ -17,10 +17,10 @@ import httpx
 from PIL import Image
 
 import service.api
+from service.api.fits import FITS
 from service.demo_data.sample import FOLDER, load_sample
 from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing, Role
-from service.representation.jobs import FITS
 from service.settings import Settings
 from tests.contract.recorder import SHOWN, Recorder
 from tests.e2e.service import (

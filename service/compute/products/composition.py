@@ -1,5 +1,6 @@
 """Body-fat share by published regressions."""
 
+from api_schemas.csv_tables import models_csv
 from api_schemas.products.documents import (
     BodyFatEstimate,
     CompositionOptions,
@@ -7,7 +8,6 @@ from api_schemas.products.documents import (
 )
 from fitter.applications.composition import body_fat, body_mass_index
 from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
-from service.representation.csv_tables import models_csv
 
 
 def make(fit: FinishedFit, options: CompositionOptions, report: Report) -> Made[CompositionResult]:

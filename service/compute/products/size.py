@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.special import ndtr
 
+from api_schemas.csv_tables import models_csv
 from api_schemas.products.documents import (
     SizeChance,
     SizedMeasurement,
@@ -15,7 +16,6 @@ from fitter.applications.sizes import Sizes, size_answer, sizes_of
 from fitter.measurement.joint_measurements import JointMeasurements
 from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
 from service.jobs.inputs import CHART
-from service.representation.csv_tables import models_csv
 
 
 def make(fit: FinishedFit, options: SizeOptions, report: Report) -> Made[SizeResult]:

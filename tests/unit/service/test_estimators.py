@@ -15,7 +15,6 @@ from service.compute.messages import DoneMessage, ProblemMessage, Received, Task
 from service.compute.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.compute.tasks import Parts
 from service.process.data_folder import Disk
-from service.representation.formats import OBJ
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import no_detector
 
@@ -61,7 +60,7 @@ def troubled(problem: Problem) -> Estimators:
 )
 def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
     estimators = troubled(problem)
-    for question in (estimators.answer(BODY, TASK), estimators.convert(b"glTF", OBJ)):
+    for question in (estimators.answer(BODY, TASK), estimators.convert(b"glTF", "obj")):
         with pytest.raises(ProblemError) as caught:
             asyncio.run(question)
         assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
@@ -94,7 +93,7 @@ def test_a_file_goes_along_and_comes_back():
         return Received(DoneMessage(parts=(FILE,)), {FILE: b"v 0 0 0"})
 
     estimators = Estimators(ask, METRICS, estimators=1)
-    assert asyncio.run(estimators.convert(b"glTF", OBJ)) == b"v 0 0 0"
+    assert asyncio.run(estimators.convert(b"glTF", "obj")) == b"v 0 0 0"
     ((question, parts),) = asked
     assert (question.task, question.parts) == ("conversion", (QUESTION, FILE))
     assert parts == {QUESTION: b'{"ending":"obj"}', FILE: b"glTF"}

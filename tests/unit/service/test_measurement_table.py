@@ -4,9 +4,9 @@ import json
 
 import pytest
 
+from api_schemas.csv_tables import measurements_csv, measurements_csv_of, models_csv
 from api_schemas.products.documents import SizeChance
 from api_schemas.results import Measurement
-from service.representation.csv_tables import measurements_csv, measurements_csv_of, models_csv
 
 
 def measurement(**changes: object) -> Measurement:

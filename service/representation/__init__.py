@@ -1,1 +1,0 @@
-"""How jobs and their files are shown to callers."""
