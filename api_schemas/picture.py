@@ -59,7 +59,7 @@ POINTS_EXAMPLE: Final[dict[str, Any]] = {
     "left_elbow": [484.0, 346.0],
     "left_hip": [399.0, 460.0],
     "right_hip": [296.0, 453.0],
-    "right_knee": {"x": 295, "y": 641, "visibility": 2},
+    "right_knee": [295.0, 641.0, 2],
 }
 
 

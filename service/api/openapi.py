@@ -42,7 +42,7 @@ from fitter.vocabulary.points import (
     TRUNK_POINT_NAMES,
 )
 from service.api.problems import documented, documented_responses
-from service.api.requests import JSON, json_content
+from service.api.requests import JSON, MULTIPART, REQUEST, json_content
 
 SUMMARY: Final = "Human body shape, pose, light and measurements from a single picture."
 
@@ -243,10 +243,26 @@ def _plain(value: Any, words: Mapping[str, Any]) -> Any:
     if name in words:
         del plain["$ref"]
         return words[name] | plain
+    choices = [kind for each in plain.get("oneOf", ()) for kind in _of_one_kind(each)]
+    if len(choices) > len(plain.get("oneOf", ())):
+        del plain["oneOf"]
+        plain["anyOf"] = choices
     if "prefixItems" in plain:
         kinds = plain["prefixItems"]
         plain["items"] = kinds[0] if all(kind == kinds[0] for kind in kinds) else {}
     return plain
+
+
+def _of_one_kind(schema: dict[str, Any]) -> list[dict[str, Any]]:
+    """Tell an object whose values are of several kinds as a choice between objects of one kind.
+
+    What generators make of a choice within a choice takes no JSON.
+    """
+    values = schema.get("additionalProperties")
+    if not isinstance(values, dict) or "oneOf" not in values:
+        return [schema]
+    kinds = cast("list[dict[str, Any]]", values["oneOf"])
+    return [schema | {"additionalProperties": kind} for kind in kinds]
 
 
 def _drop_titles(schemas: Any) -> None:
@@ -292,7 +308,13 @@ def _with_examples(operation: dict[str, Any]) -> Iterator[tuple[Examples, dict[s
     name: str = operation["operationId"]
     recorded = recorded_examples()
     if name in recorded["requests"]:
-        yield recorded["requests"][name], operation["requestBody"]["content"][JSON]
+        bodies: dict[str, Any] = operation["requestBody"]["content"]
+        examples = recorded["requests"][name]
+        if JSON in bodies:
+            yield examples, bodies[JSON]
+        else:
+            in_form = {each: {REQUEST: value} for each, value in examples.items()}
+            yield in_form, bodies[MULTIPART]
     for status, examples in recorded["answers"].get(name, {}).items():
         content: dict[str, Any] = operation["responses"][status]["content"]
         yield examples, content[JSON] if JSON in content else next(iter(content.values()))

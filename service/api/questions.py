@@ -62,7 +62,7 @@ PROBLEMS: Final = (
 NOT_KEPT: Final = {"Cache-Control": "no-store"}
 
 _PARTS: Final = {
-    IMAGE: Part(description="JPEG, PNG, WebP or HEIC.", least=1),
+    IMAGE: Part(description="JPEG, PNG, WebP or HEIC. None where it was uploaded."),
     REQUEST: json_part(PointsRequest, least=0),
 }
 _ENDINGS: Final = {media_type: ending for ending, media_type in MESH_FORMATS.items()}
@@ -74,7 +74,7 @@ _FORMS_OF_A_BODY: Final = (JSON, GLB, *_ENDINGS, CSV)
     tags=ESTIMATES,
     response_class=Response,
     summary="Propose the points of a person, and check the picture",
-    openapi_extra=body(form=form_content(_PARTS), json=json_content(PointsRequest)),
+    openapi_extra=body(form=form_content(_PARTS)),
     responses={
         200: {
             "description": "Who was found, the points of one of them, and what is wrong with the "
@@ -87,9 +87,10 @@ _FORMS_OF_A_BODY: Final = (JSON, GLB, *_ENDINGS, CSV)
 async def propose_points(request: Request, context: Context) -> Response:
     """Return who is in a picture, where a detector sees their joints, and what is wrong with it.
 
-    The picture comes along, or was uploaded to `/v1/images` before: then the body is JSON and names
-    it by `image_id`. `points` can be sent with a fit as they are; what is `doubtful` is better
-    looked at first. Points that somebody moved are sent without `source`, or as clicks.
+    The picture comes along, or was uploaded to `/v1/images` before: then the request names it by
+    `image_id`, and its JSON alone may be the body. `points` can be sent with a fit as they are;
+    what is `doubtful` is better looked at first. Points that somebody moved are sent without
+    `source`, or as clicks.
 
     Say in `view` from where the person is to be seen, and in `height_m` and the focal length what
     is known: how near the camera was follows from them.

@@ -151,7 +151,8 @@ async def read_form(
         once that may not. What may come several times may be too many here.
     """
     if media_type(request) != MULTIPART:
-        named = " and ".join(f"'{name}'" for name, part in parts.items() if part.least)
+        needed = [name for name, part in parts.items() if part.least] or list(parts)
+        named = " and ".join(f"'{name}'" for name in needed)
         raise _unsupported(
             request,
             remedy=f"Send {MULTIPART} with the part {named}"

@@ -25,7 +25,6 @@ from service.api.requests import (
     Part,
     body,
     form_content,
-    json_content,
     json_part,
     read_json_or_form,
 )
@@ -49,7 +48,10 @@ ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
 _PARTS: Final = {
     REQUEST: json_part(FitRequest),
-    IMAGE: Part(description="A picture: JPEG, PNG, WebP or HEIC.", least=1, most=MOST_VIEWS),
+    IMAGE: Part(
+        description="A picture: JPEG, PNG, WebP or HEIC. None where all were uploaded.",
+        most=MOST_VIEWS,
+    ),
     MASK: Part(
         description="A grey picture of its picture's size; the person is brighter than half. One "
         "for each picture; replaces segmentation.",
@@ -72,7 +74,7 @@ IdempotencyKey = Annotated[
     status_code=202,
     response_model=Fit,
     summary="Submit pictures",
-    openapi_extra=body(form=form_content(_PARTS), json=json_content(FitRequest)),
+    openapi_extra=body(form=form_content(_PARTS)),
     responses={
         200: {"model": Fit, "description": "Ended within the time of `Prefer: wait`."},
         202: {
@@ -107,8 +109,8 @@ async def submit_fit(
     """Accept one to six pictures of a person; the answer is a fit to follow.
 
     The pictures come along, in the order of `views`, or were uploaded to `/v1/images` before: then
-    the body is the same JSON with an `image_id` in every view. One body is found in all of them
-    together. While it waits, a fit counts for as many as it has pictures.
+    every view names its `image_id`, and the JSON of `request` alone may be the body. One body is
+    found in all of them together. While it waits, a fit counts for as many as it has pictures.
 
     The same `Idempotency-Key` with the same content answers with the earlier fit. With `Prefer:
     wait=N` (at most 60 s) the answer waits for the fit's end.
@@ -116,7 +118,7 @@ async def submit_fit(
     received = await read_json_or_form(request, FitRequest, _PARTS)
     asked = received.asked
     if received.files:
-        sent = _sent_along(asked, received.files[IMAGE], received.files.get(MASK, ()))
+        sent = _sent_along(asked, received.files.get(IMAGE, ()), received.files.get(MASK, ()))
     else:
         sent = await with_blobs(context.blobs, _uploaded, context, asked)
     checked = await run_in_threadpool(_checked, context, asked, sent)

@@ -2,6 +2,8 @@
 
 import copy
 import json
+from collections.abc import Iterator
+from typing import Any
 
 import jsonschema_rs
 import pytest
@@ -56,7 +58,7 @@ def test_every_example_in_a_type_is_of_that_type():
 def test_a_wrong_example_would_be_noticed():
     schema, value = next(each.values for each in EXAMPLES if " request " in each.id)
     broken = copy.deepcopy(value)
-    broken["views"][0]["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
+    broken["request"]["views"][0]["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
     with pytest.raises(jsonschema_rs.ValidationError):
         validator(schema, DOCUMENT).validate(broken)
 
@@ -104,3 +106,23 @@ def test_every_operation_says_how_it_ends(operation):
 def test_parameters_are_left_out_and_never_null():
     text = json.dumps([operation.content.get("parameters", []) for operation in OPERATIONS])
     assert '"null"' not in text
+
+
+def test_generators_find_the_answer_first_and_one_way_to_send_pictures():
+    """They ask for the first type of all answers, and prefer JSON to a form that holds files."""
+    for path, offered in DOCUMENT["paths"].items():
+        for operation in offered.values():
+            assert next(iter(operation["responses"])).startswith("2"), path
+            sent = operation.get("requestBody", {"content": {}})["content"]
+            assert len(sent) <= 1 or path.endswith("/products"), path
+
+
+def test_every_tuple_says_what_its_items_are():
+    def tuples(value: Any) -> Iterator[dict[str, Any]]:
+        if isinstance(value, dict):
+            yield from [value] if "prefixItems" in value else []
+            value = list(value.values())
+        for each in value if isinstance(value, list) else ():
+            yield from tuples(each)
+
+    assert all("items" in each for each in tuples(DOCUMENT))

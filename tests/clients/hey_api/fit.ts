@@ -8,7 +8,7 @@ client.setConfig({ baseUrl: service });
 const always = { throwOnError: true } as const;
 
 const { data: image } = await uploadImage({ ...always, body: { image: await openAsBlob(picture) } });
-let { data: fit } = await submitFit({ ...always, body: { gender: "male", height_m: 1.804, views: [{ image_id: image.id }] } });
+let { data: fit } = await submitFit({ ...always, body: { request: { gender: "male", height_m: 1.804, views: [{ image_id: image.id }] } } });
 const path = { fit_id: fit.id };
 while (fit.state === "queued" || fit.state === "running") {
   await new Promise((resume) => setTimeout(resume, 300));

@@ -26,7 +26,7 @@ from maquette_client.models import (
     FitRequest,
     FitResult,
     JobState,
-    SubmitFitFilesBody,
+    SubmitFitBody,
     UploadedImage,
     UploadImageBody,
 )
@@ -41,16 +41,17 @@ def picture_file(picture: Path) -> File:
 def submitted_as_form(client: Client, request: Path, pictures: Sequence[Path]) -> Fit:
     asked = FitRequest.from_dict(json.loads(request.read_text()))
     files = [picture_file(each) for each in pictures]
-    fit = submit_fit.sync(client=client, body=SubmitFitFilesBody(image=files, request=asked))
+    fit = submit_fit.sync(client=client, body=SubmitFitBody(image=files, request=asked))
     assert isinstance(fit, Fit), fit
     return fit
 
 
-def submitted_as_json(client: Client, request: Path, images: Sequence[UploadedImage]) -> Fit:
+def submitted_by_id(client: Client, request: Path, images: Sequence[UploadedImage]) -> Fit:
     asked = json.loads(request.read_text())
     for view, image in zip(asked["views"], images, strict=True):
         view["image_id"] = image.id
-    fit = submit_fit.sync(client=client, body=FitRequest.from_dict(asked))
+    body = SubmitFitBody(request=FitRequest.from_dict(asked))
+    fit = submit_fit.sync(client=client, body=body)
     assert isinstance(fit, Fit), fit
     return fit
 
@@ -78,7 +79,7 @@ def main(service: str, request: Path, pictures: Sequence[Path]) -> None:
     images = [uploaded(client, each) for each in pictures]
     fits = [
         submitted_as_form(client, request, pictures),
-        submitted_as_json(client, request, images),
+        submitted_by_id(client, request, images),
     ]
     results = [ended(client, fit) for fit in fits]
     body = get_fit_file.sync(fits[0].id, "views/0/body_posed.glb", client=client)

@@ -132,7 +132,7 @@ def test_what_is_no_question_is_told(service: Service):
     post = service.client.post
     checked(post("/v1/points", content=b"GIF89a", headers={"Content-Type": "image/gif"}), 415)
     missing = checked(post("/v1/points", files={"request": ("r", b"{}")}), 422)
-    assert (missing.field, missing.code) == ("image", "missing")
+    assert (missing.field, missing.code) == ("image_id", "missing")
     mask = {"image": ("p.png", scripted_image()), "mask": ("m.png", scripted_image())}
     assert checked(post("/v1/points", files=mask), 422).field == "mask"
     text = checked(post("/v1/points", files={"image": ("p.png", b"text")}), 415)
