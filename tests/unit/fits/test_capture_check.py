@@ -110,9 +110,9 @@ def test_the_distance_is_by_the_lens_in_the_file_the_given_one_or_none():
     assert checked(sample()).checked.distance_m is None
     given = checked(sample(), focal_length_35mm=50.0)
     assert given.checked.distance_m == pytest.approx(2.83, rel=0.05)
-    assert [each.value for each in given.assumptions] == [1.7]
+    assert ["1.70 m" in each.reason for each in given.assumptions] == [True]
     woman = checked(sample(), gender=Gender.FEMALE)
-    assert [each.value for each in woman.assumptions] == [1.65]
+    assert ["1.65 m" in each.reason for each in woman.assumptions] == [True]
 
 
 def test_one_of_two_can_be_meant_by_their_place_or_a_point():
