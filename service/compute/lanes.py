@@ -8,13 +8,12 @@ Each child answers one question at a time. One that dies over a question, or tak
 that question alone and is replaced. All troubles are answers too, as problems.
 """
 
-import contextlib
 import logging
 import os
 import queue
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import Final
@@ -114,25 +113,16 @@ class QuickLane:
 
         Who is not ``patient`` waits only briefly for a busy child, or one that is starting.
         """
-        with self._place(None if question.patient else MOMENT_S) as place:
-            if place is None:
-                return _told(UNAVAILABLE)
-            within_s = self._ready_within_s if question.patient else MOMENT_S
-            return place.answer(question, parts, ready_within_s=within_s)
-
-    @contextlib.contextmanager
-    def _place(self, within_s: float | None) -> Iterator["_Place | None"]:
         if not self._room.acquire(blocking=False):
-            yield None
-            return
+            return _told(UNAVAILABLE)
         try:
+            place = self._idle.get(timeout=None if question.patient else MOMENT_S)
+        except queue.Empty:
+            return _told(UNAVAILABLE)
+        else:
+            within_s = self._ready_within_s if question.patient else MOMENT_S
             try:
-                place = self._idle.get(timeout=within_s)
-            except queue.Empty:
-                yield None
-                return
-            try:
-                yield place
+                return place.answer(question, parts, ready_within_s=within_s)
             finally:
                 self._idle.put(place)
         finally:
