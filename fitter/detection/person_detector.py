@@ -126,7 +126,7 @@ class FaceDetector:
 
 
 class _Sighting(NamedTuple):
-    """What a network found: how certain it is, and key points in pixels of the picture."""
+    """Finding of a network: its certainty, and key points in pixels of the picture."""
 
     score: float
     key_points: Float[np.ndarray, "k 2"]

@@ -1,4 +1,4 @@
-"""What there is to check of a picture, asked about or fitted: reduced just as a fit does it."""
+"""Captures to check, of a picture asked about or fitted: reduced just as a fit does it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -36,7 +36,7 @@ ASSUMED_HEIGHT_M = 1.7
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaptureQuestion:
-    """What is said of the picture.
+    """Everything that is said of the picture.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class CaptureQuestion:
 def capture_of(
     picture: DecodedPicture, question: CaptureQuestion, *, detector: Detector | None
 ) -> Capture:
-    """What there is to check of a decoded picture.
+    """The capture of a decoded picture.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def capture_of_fit(
     body: Candidate,
     clothing: tuple[WornRegion, ...] | None,
 ) -> Capture:
-    """What there is to check of a picture that was fitted: what the fit has of it anyway.
+    """The capture of a picture that was fitted, from what the fit has of it anyway.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def capture_of_fit(
 
 
 def directions_of(joints: Points3D, part_names: Sequence[str]) -> Directions:
-    """How trunk, thighs and shins of a body lie; its joints (p, 3) in the camera frame, by part."""
+    """Directions of trunk, thighs and shins, from joints (p, 3) in the camera frame, by part."""
     at = dict(zip(part_names, joints, strict=True))
     ends = {
         f"{side}_{limb}": (at[f"{side}_{limb}"], at[f"{side}_{following}"])
@@ -153,7 +153,7 @@ def directions_of(joints: Points3D, part_names: Sequence[str]) -> Directions:
 def _clothing(
     capture: Capture, linear_rgb: Image, gender: Gender | None
 ) -> tuple[WornRegion, ...] | None:
-    """How each region is covered, by parts that are told by the bones."""
+    """Covering of each region, by parts that are told by the bones."""
     if capture.mask is None or capture.stature_px is None:
         return None
     pixels_per_metre = capture.stature_px / capture.height_m

@@ -1,4 +1,4 @@
-"""How every fit ends: from the final bodies to a person with light in each picture.
+"""The end of every fit: from the final bodies to a person with light in each picture.
 
 The bounds were chosen on the tuning halves of people and of nonsense (DECISIONS.md, "Nonsense is
 called nonsense"). No person may come near them, in the dark, in grain, behind a table or with
@@ -256,7 +256,7 @@ def obstruction(
     rendering: Rendering,
     parts: Shaped[np.ndarray, "h w"],
 ) -> tuple[Remark, ...]:
-    """What is to be told of things before the person or beside them: nothing, or one finding.
+    """Finding of things before the person or beside them, if there are any.
 
     Parameters
     ----------
@@ -305,7 +305,7 @@ hair broadens a head, and moves no ears."""
 
 
 def squeezed(capture: Capture, breadth: float | None) -> tuple[Remark, ...]:
-    """What is to be told of a picture that was squeezed or stretched: nothing, or one finding.
+    """Finding of a picture that was squeezed or stretched, if it was.
 
     ``breadth`` is that of the head in the picture, of the body's.
     """

@@ -108,7 +108,7 @@ def _summed(
 
 
 def counted_as(pictures: int, *, shared: float = SHARED_ERROR) -> float:
-    """How many pictures that err each by itself say as much as so many of one person."""
+    """Number of pictures that err each by itself and say as much as so many of one person."""
     return pictures / (1.0 + (pictures - 1) * shared)
 
 
@@ -143,7 +143,7 @@ def _agreement(
 
 
 def _looked_at(count: int) -> int:
-    """How many differences there are among which one may be large by chance; two have but one."""
+    """Number of differences among which one may be large by chance; two have but one."""
     return count if count > 2 else 1
 
 

@@ -1,4 +1,4 @@
-"""Which part of the body each pixel of a person shows, by the nearest bone.
+"""The part of the body that each pixel of a person shows, by the nearest bone.
 
 A part is taken to be as thick as it usually is: a pixel belongs to the part to whose bone its
 distance, less that thickness, is the least (an additively weighted Voronoi diagram).

@@ -1,4 +1,4 @@
-"""What is covered: trunk and thighs of a person, by how much of them shows the skin's colour.
+"""Coverage of a person's trunk and thighs, by how much of them shows the skin's colour.
 
 A person wears one of few outfits: underwear, a swimsuit, nothing above the hips or at all, trousers
 alone, shorts alone, a top with trousers, or a top with shorts, a skirt or a dress; tops may leave

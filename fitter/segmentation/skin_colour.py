@@ -1,4 +1,4 @@
-"""Which pixels of the person show bare skin, by the colours of their own face and hands.
+"""Bare skin in a picture, by the colours of the person's own face and hands.
 
 Balan and Black, "The Naked Truth", ECCV 2008: skin bounds the body tightly, clothes only
 from outside. The colour of a person's skin is not known in advance, but the clicks say where the
