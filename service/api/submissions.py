@@ -30,8 +30,8 @@ from service.api.requests import (
 )
 from service.api.storage import disk_full, erase_at_once, store, storing, with_blobs, writing
 from service.compute.questions import BodyTask
-from service.jobs.addresses import target_fault
 from service.jobs.inputs import IMAGE, MASK, SentPicture
+from service.jobs.notices import target_fault
 from service.jobs.records import (
     ACTIVE,
     FIT,

@@ -4,14 +4,20 @@ Each is a workflow of DBOS, whose one step sends it and is retried by DBOS. It i
 transaction that ends its fit, under an id made of the fit's, so none is lost and none is there
 twice. API processes send them. One that dies leaves its notices to the next API process of its
 machine; those of a machine that is gone are enqueued again by the sweep.
+
+The caller chooses the address, and the service can reach what the caller cannot: notices go to
+public addresses alone, and to hosts that the settings name. A name is resolved once, its addresses
+are checked, and the connection goes to a checked one; a second look could give another.
 """
 
 import asyncio
 import base64
 import hashlib
 import hmac
+import ipaddress
 import logging
 import os
+import socket
 import ssl
 import time
 from collections import defaultdict
@@ -24,18 +30,15 @@ import sqlalchemy as sa
 from dbos import DBOS, DBOSClient, error
 
 from api_schemas.jobs import Fit, WebhookEvent, WebhookEventType, WebhookTarget, secret_key
-from service.jobs.addresses import (
-    AddressRefusedError,
-    IPAddress,
-    is_port_refused,
-    port_of,
-    resolve,
-)
+from api_schemas.problems import FieldProblem
 from service.jobs.blobs import BlobMissingError, BlobStore
 from service.jobs.executions import EXECUTION_VERSION, client_of, configure
 from service.jobs.records import JobRecord
 from service.jobs.rows import find_job
 from service.process.logs import fields
+from service.settings import Settings
+
+IPAddress = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -59,6 +62,40 @@ LEFT_AFTER: Final = timedelta(hours=3)
 ATTEMPT_WITHIN_S: Final = 15.0
 CONNECT_WITHIN_S: Final = 5.0
 USER_AGENT: Final = "Maquette (Standard Webhooks)"
+
+GLOBAL_UNICAST: Final = ipaddress.IPv6Network("2000::/3")
+
+SPECIAL: Final = tuple(
+    map(
+        ipaddress.ip_network,
+        (
+            # RFC 6890 and 7723: protocols between a host and its own network. The gateway answers
+            # at 192.0.0.9, Oracle's metadata at 192.0.0.192.
+            "192.0.0.0/24",
+            # RFC 7535 and 7450: whichever name server or relay is nearest.
+            "192.31.196.0/24",
+            "192.52.193.0/24",
+            "192.175.48.0/24",
+            "2620:4f:8000::/48",
+            # RFC 7526 and 3056: 6to4, whose relays are no more.
+            "192.88.99.0/24",
+            "2002::/16",
+            # Azure's own services, from every machine in it, and from nowhere else.
+            "168.63.129.16/32",
+            # RFC 2928: Teredo, benchmarks, identifiers, the gateway at 2001:1::1.
+            "2001::/23",
+            # RFC 3849 and 9637: documentation.
+            "2001:db8::/32",
+            "3fff::/20",
+            # RFC 3701: the testing network of before, given back.
+            "3ffe::/16",
+            # RFC 9602: segments of routes within one network.
+            "5f00::/16",
+        ),
+    )
+)
+"""Networks that are not what a name on the open internet leads to, as IANA's registries of special
+addresses have them. Python's own list depends on its release: it is asked as well."""
 
 
 def notice_of(job_id: str) -> str:
@@ -233,28 +270,14 @@ class Sender:
         except TimeoutError as error:
             message = f"No answer within {ATTEMPT_WITHIN_S:g} s."
             raise NotAcceptedError(message) from error
-        except AddressRefusedError as error:
-            raise NotAcceptedError(str(error)) from error
         except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
             # By kind alone: the message may quote the address, or what is there.
             message = f"No connection, or none that lasted ({type(error).__name__})."
             raise NotAcceptedError(message) from None
 
     async def _post(self, url: httpx.URL, headers: Mapping[str, str], body: bytes) -> int:
-        if is_port_refused(url, self._allowed_hosts):
-            message = "Notices are not sent to the receiver's port."
-            raise AddressRefusedError(message)
-        *others, last = await resolve(url.raw_host.decode(), port_of(url), self._allowed_hosts)
-        for address in others:
-            try:
-                return await self._post_to(address, url, headers, body)
-            except (httpx.ConnectError, httpx.ConnectTimeout):
-                continue
-        return await self._post_to(last, url, headers, body)
-
-    async def _post_to(
-        self, address: IPAddress, url: httpx.URL, headers: Mapping[str, str], body: bytes
-    ) -> int:
+        host = url.raw_host.decode()
+        address, *_ = await resolve(host, self._allowed_hosts)
         async with (
             httpx.AsyncClient(
                 verify=self._tls,
@@ -268,7 +291,7 @@ class Sender:
                 content=body,
                 headers={"host": url.netloc.decode(), **headers},
                 # The certificate must be for the name, not for the address.
-                extensions={"sni_hostname": url.raw_host.decode()},
+                extensions={"sni_hostname": host},
             ) as response,
         ):
             return response.status_code
@@ -283,3 +306,76 @@ def signed_headers(*, notice_id: str, timestamp: int, body: bytes, secret: str) 
         "webhook-timestamp": str(timestamp),
         "webhook-signature": f"v1,{signature}",
     }
+
+
+def is_public(address: IPAddress) -> bool:
+    """Whether an address is on the open internet, and no translation of another one."""
+    if not address.is_global or address.is_multicast or any(address in each for each in SPECIAL):
+        return False
+    return address.version == 4 or address in GLOBAL_UNICAST
+
+
+def target_fault(target: WebhookTarget, settings: Settings) -> FieldProblem | None:
+    """Why no notice can be sent there or signed; None if one can, as far as the request says.
+
+    Names are looked up only when a notice is sent.
+    """
+    try:
+        url = httpx.URL(target.url)
+    except httpx.InvalidURL:
+        return FieldProblem(
+            field="webhook.url",
+            code="unusable-address",
+            reason="This is no address of a web server.",
+            remedy="Send an address such as https://example.org/hooks/maquette.",
+        )
+    if is_refused_outright(url.host, settings.webhook_hosts):
+        return FieldProblem(
+            field="webhook.url",
+            code="address-not-public",
+            reason="Notices are sent to public addresses only.",
+            remedy="Name a public host; whoever runs the service may allow others by "
+            "MAQUETTE_WEBHOOK_HOSTS.",
+        )
+    if target.secret is None and settings.webhook_secret is None:
+        return FieldProblem(
+            field="webhook.secret",
+            code="missing",
+            reason="This service has no secret of its own to sign notices with.",
+            remedy="Send one; make it with: echo whsec_$(openssl rand -base64 32)",
+        )
+    return None
+
+
+def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
+    """Whether a host can be refused without resolving it: a literal address, or localhost."""
+    if host in allowed_hosts:
+        return False
+    try:
+        return not is_public(ipaddress.ip_address(host))
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
+
+
+async def resolve(host: str, allowed_hosts: Collection[str]) -> list[IPAddress]:
+    """Resolve a host and return the addresses a notice may go to, at least one.
+
+    Raises
+    ------
+    NotAcceptedError
+        If there is none. It says nothing of the name: callers could find out by it which names
+        exist in the service's network.
+    """
+    try:
+        found = await asyncio.get_running_loop().getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    except (OSError, UnicodeError) as error:
+        message = "The receiver's name cannot be resolved."
+        raise NotAcceptedError(message) from error
+    # An IPv6 address may come with its zone.
+    addresses = [ipaddress.ip_address(str(entry[4][0]).partition("%")[0]) for entry in found]
+    if host not in allowed_hosts:
+        addresses = [address for address in addresses if is_public(address)]
+    if not addresses:
+        message = "The receiver's address is not public."
+        raise NotAcceptedError(message)
+    return list(dict.fromkeys(addresses))

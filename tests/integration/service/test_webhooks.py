@@ -172,15 +172,6 @@ def test_an_address_that_is_not_public_is_refused_at_once(without_worker: Servic
     assert problem["field"] == "webhook.url"
 
 
-@pytest.mark.parametrize("url", ["https://example.org:8443/", "http://example.org:22/"])
-def test_another_port_than_the_usual_is_refused_at_once(service: Service, url: str):
-    answer = service.post(request=REQUEST | {"webhook": {"url": url, "secret": SECRET}})
-    problem = answer.json()
-    assert (answer.status_code, problem["code"]) == (422, "port-not-allowed")
-    assert problem["field"] == "webhook.url"
-    assert "443 or 80" in problem["remedy"]
-
-
 def test_a_notice_nobody_could_sign_is_refused(without_worker: Service):
     answer = without_worker.post(request=REQUEST | {"webhook": {"url": "https://example.org/"}})
     assert (answer.status_code, answer.json()["field"]) == (422, "webhook.secret")

@@ -3,7 +3,7 @@ import ipaddress
 
 import pytest
 
-from service.jobs.addresses import AddressRefusedError, is_public, is_refused_outright, resolve
+from service.jobs.notices import NotAcceptedError, is_public, is_refused_outright, resolve
 
 PRIVATE = [
     "0.0.0.0",
@@ -40,6 +40,9 @@ PRIVATE = [
     "64:ff9b::10.0.0.1",
     "64:ff9b::192.88.99.1",
     "64:ff9b:1::1",
+    # Translations of other addresses, public ones too.
+    "64:ff9b::1.1.1.1",
+    "2002:101:101::",
     "100::1",
     "100:0:0:1::1",
     "2002:7f00:1::",
@@ -72,7 +75,6 @@ PUBLIC = [
     "2001:200::1",
     "2606:4700:4700::1111",
     "3fff:1000::1",
-    "64:ff9b::1.1.1.1",
 ]
 
 
@@ -80,21 +82,21 @@ PUBLIC = [
 def test_no_notice_goes_to_an_address_that_is_not_public(address):
     assert not is_public(ipaddress.ip_address(address))
     assert is_refused_outright(address, ())
-    with pytest.raises(AddressRefusedError, match="not public"):
-        asyncio.run(resolve(address, 80, ()))
+    with pytest.raises(NotAcceptedError, match="not public"):
+        asyncio.run(resolve(address, ()))
 
 
 @pytest.mark.parametrize("address", PUBLIC)
 def test_public_addresses_are_public(address):
     assert is_public(ipaddress.ip_address(address))
     assert not is_refused_outright(address, ())
-    assert asyncio.run(resolve(address, 80, ())) == [ipaddress.ip_address(address)]
+    assert asyncio.run(resolve(address, ())) == [ipaddress.ip_address(address)]
 
 
 @pytest.mark.parametrize("host", ["127.1", "0x7f000001", "2130706433", "localhost", "0177.0.0.1"])
 def test_other_ways_to_write_this_machine_are_found_out_when_they_are_looked_up(host):
-    with pytest.raises(AddressRefusedError):
-        asyncio.run(resolve(host, 80, ()))
+    with pytest.raises(NotAcceptedError):
+        asyncio.run(resolve(host, ()))
 
 
 def test_a_name_of_public_and_private_addresses_leads_to_the_public_ones(monkeypatch):
@@ -103,16 +105,16 @@ def test_a_name_of_public_and_private_addresses_leads_to_the_public_ones(monkeyp
 
     async def resolved():
         monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", lookup)
-        return await resolve("mixed.example", 443, ())
+        return await resolve("mixed.example", ())
 
     assert asyncio.run(resolved()) == [ipaddress.ip_address("1.1.1.1")]
 
 
 def test_hosts_the_settings_name_may_be_anywhere():
-    assert asyncio.run(resolve("127.0.0.1", 80, ("127.0.0.1",)))
+    assert asyncio.run(resolve("127.0.0.1", ("127.0.0.1",)))
     assert not is_refused_outright("localhost", ("localhost",))
 
 
 def test_an_unknown_name_says_so():
-    with pytest.raises(AddressRefusedError, match="resolved"):
-        asyncio.run(resolve("no-such-host.invalid", 80, ()))
+    with pytest.raises(NotAcceptedError, match="resolved"):
+        asyncio.run(resolve("no-such-host.invalid", ()))
