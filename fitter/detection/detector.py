@@ -11,6 +11,7 @@ from jaxtyping import Float, UInt8
 from fitter.arrays import GreyImage
 from fitter.detection.body_landmarks import (
     CLEARLY_TURNED,
+    FACE_SEEN,
     PRESENT,
     BodyLandmarks,
     LandmarkNetwork,
@@ -48,7 +49,8 @@ FACE_POINTS = frozenset({"nose", "left_eye", "right_eye"})
 
 FACE_HIDDEN = 0.55
 """Certainty of a face below which it is not seen: it is 0.82 at least of 84 people from the front,
-and less than this of 56 of 60 from whom boxes, discs, telephones or blur hide it (tuning half)."""
+and less than this of 56 of 60 from whom boxes, discs, telephones or blur hide it (tuning half). Of
+who is seen from behind a face counts from :data:`FACE_SEEN` on: hair looks like one."""
 
 HIDDEN = 0.25
 """Visibility of points of a face that is not seen: the network calls those visible too."""
@@ -205,7 +207,8 @@ def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
     height, width = landmarks.mask.shape
     pixels = own_pixels(landmarks)
     facing = trunk_facing(*pixels[[INDEX_OF_POINT[name] for name in (*SHOULDERS, *HIPS)]]) or 0.0
-    is_faceless = abs(facing) > CLEARLY_TURNED and landmarks.face < FACE_HIDDEN
+    least = FACE_HIDDEN if facing > 0.0 else FACE_SEEN
+    is_faceless = abs(facing) > CLEARLY_TURNED and landmarks.face < least
     points: dict[str, Click] = {}
     visibility: dict[str, float] = {}
     for name, index in INDEX_OF_POINT.items():
