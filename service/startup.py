@@ -109,7 +109,7 @@ def fault_lines(error: ValidationError, *, options: Collection[str] = ()) -> Ite
         name = str(fault["loc"][0]) if fault["loc"] else ""
         option = f"--{name.replace('_', '-')}"
         label = option if name in options else PREFIX + name.upper()
-        yield f"{label}={_shown(name, fault['input'])}: {_reason(name, fault)}."
+        yield f"{label}={_shown(name, fault['input'])}: {_reason(fault)}."
 
 
 def unknown_names(environment: Mapping[str, str]) -> list[str]:
@@ -131,17 +131,10 @@ def _shown(name: str, value: object) -> str:
     return printable if len(printable) <= LONGEST_SHOWN else f"{printable[:LONGEST_SHOWN]}..."
 
 
-def _reason(name: str, fault: ErrorDetails) -> str:
+def _reason(fault: ErrorDetails) -> str:
     context: Mapping[str, Any] = fault.get("ctx", {})
     if fault["type"] == "value_error":
         return str(context["error"])
     if "remedy" in context:  # a refusal of our own
         return f"{context['reason'].rstrip('.')}. {context['remedy'].rstrip('.')}"
-    return f"{fault['msg']}; {_way_out(name)}"
-
-
-def _way_out(name: str) -> str:
-    field = Settings.model_fields.get(name)
-    if field is None or field.default in (None, ()) or field.default_factory is not None:
-        return "correct it, or unset it"
-    return f"correct it, or unset it for the default, {field.default}"
+    return f"{fault['msg']}; correct it, or unset it"

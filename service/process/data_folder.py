@@ -1,6 +1,5 @@
 """The data folder: private to its owner, checked before anything is stored, and never full."""
 
-import getpass
 import os
 import shutil
 import stat
@@ -66,11 +65,11 @@ def prepare_data_folder(settings: Settings) -> None:
             make_private_folder(settings.blob_dir)
     # Python reports a loop of links with an error that is not an OSError.
     except (OSError, RuntimeError) as error:
-        raise _unusable(settings, f"it cannot be made ({_why(error)})") from error
+        raise _unusable(settings, f"it cannot be made ({error})") from error
     files = database_files(settings.database_file)
     for path in (folder, settings.blob_dir, *files):
         if path.exists() and not _may_write(path):
-            raise _unusable(settings, f"{_user()} may not write {path}")
+            raise _unusable(settings, f"user {os.geteuid()} may not write {path}")
     own = {settings.blob_dir.name, *(file.name for file in files)}
     # A folder that holds anything but ours may be shared for a reason.
     if all(each.name in own for each in folder.iterdir()):
@@ -89,21 +88,6 @@ def _unusable(settings: Settings, reason: str) -> SettingError:
         name="data_dir",
         value=settings.data_dir,
     )
-
-
-def _user() -> str:
-    try:
-        return f"user {getpass.getuser()}"
-    except (KeyError, OSError):
-        return f"user {os.geteuid()}"
-
-
-def _why(error: OSError | RuntimeError) -> str:
-    if isinstance(error, FileExistsError | NotADirectoryError):
-        return f"{error.filename} lies at or below a file"
-    if isinstance(error, OSError) and error.strerror:
-        return f"{error.strerror}: {error.filename}"
-    return str(error)
 
 
 BYTES_PER_MB = 1_000_000

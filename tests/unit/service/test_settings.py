@@ -168,12 +168,12 @@ def lines(*, options: tuple[str, ...] = (), **given: object) -> list[str]:
 
 
 def test_a_fault_names_variable_value_and_remedy_in_one_line():
-    way_out = "correct it, or unset it for the default"
+    way_out = "correct it, or unset it"
     assert lines(retention_hours="inf") == [
-        f"MAQUETTE_RETENTION_HOURS=inf: Input should be a finite number; {way_out}, 168.0."
+        f"MAQUETTE_RETENTION_HOURS=inf: Input should be a finite number; {way_out}."
     ]
     assert lines(heartbeat_s="1e308") == [
-        f"MAQUETTE_HEARTBEAT_S=1e308: Input should be less than or equal to 3600; {way_out}, 2.0."
+        f"MAQUETTE_HEARTBEAT_S=1e308: Input should be less than or equal to 3600; {way_out}."
     ]
 
 
