@@ -1,4 +1,4 @@
-"""What a fit has found, translated to the wire."""
+"""The result of a fit, translated to the wire."""
 
 import math
 from collections.abc import Collection, Mapping, Sequence

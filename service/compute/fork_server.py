@@ -23,7 +23,7 @@ SECRETLESS: Final = "service.compute.secretless"
 """The module that the server imports before any other."""
 
 DEATHS: Final = 5
-"""How often in a row the server may die before it is taken to be unable to fork at all."""
+"""Deaths of the server in a row, after which it is taken to be unable to fork at all."""
 
 FIRST_PAUSE_S: Final = 0.1
 """Pause before the server is started again; twice as long each time."""

@@ -11,7 +11,7 @@ from service.compute.tasks import ChildSetup, Observe, Parts, Task
 from service.submissions.image_header import DamagedImageError, read_image_header
 
 LOADED: Final = (Image.init(), read_exif)
-"""What every child needs is there before the first fork."""
+"""Loaded before the first fork, as every child needs it."""
 
 
 def _header(_setup: ChildSetup, parts: Parts, _observe: Observe) -> Parts:

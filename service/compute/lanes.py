@@ -46,16 +46,16 @@ MOST_WAITING: Final = 20
 """Questions that may wait per child: about two seconds' worth. More are told to come back."""
 
 MOMENT_S: Final = 0.5
-"""How long a question waits for a child if it can do without an answer."""
+"""Wait for a child of a question that can do without an answer."""
 
 READY_WITHIN_S: Final = 5.0
-"""How long a question waits for a child that is being started, as while the server loads."""
+"""Wait of a question for a child that is being started, as while the server loads."""
 
 ANSWER_WITHIN_S: Final = 10.0
 """A hundred times what an answer takes: a child that needs more is stuck, and is replaced."""
 
 EXIT_S: Final = 1.0
-"""How long the exit code of a child that has closed its pipe is waited for."""
+"""Wait for the exit code of a child that has closed its pipe."""
 
 SOCKET: Final = "questions"
 LOOK_S: Final = 0.02
@@ -87,7 +87,7 @@ FAILED: Final = problem(
 
 
 def capacity(children: int) -> int:
-    """How many questions are accepted at a time, being answered or waiting."""
+    """Questions that are accepted at a time, being answered or waiting."""
     return children * (1 + MOST_WAITING)
 
 
@@ -250,7 +250,7 @@ HEADER_CHILDREN: Final = 2
 """A header takes some milliseconds; more requests wait than the API has threads."""
 
 HEADERS_READY_WITHIN_S: Final = 60.0
-"""How long a picture waits for a child: they load in a second or two, and on a busy machine in
+"""Wait of a picture for a child: they load in a second or two, and on a busy machine in
 more. The API takes requests meanwhile."""
 
 HEADER: Final = "header"

@@ -1,4 +1,4 @@
-"""What passes between processes that compute and those that have something computed.
+"""Messages between processes that compute and those that have something computed.
 
 A message is a header, JSON, and after it the parts that it names: bytes, each sent on its own. The
 one who asks sends a task. The answer is any number of reports of progress and then one of the

@@ -41,13 +41,13 @@ T = TypeVar("T")
 LOG: Final = logging.getLogger(__name__)
 
 CANCEL_POLL_S: Final = 0.1
-"""How often a running fit looks whether it was canceled."""
+"""Pause between two looks of a running fit whether it was canceled."""
 
 WATCHDOG_S: Final = 1.0
 """Beyond the time limit, a child that stalls in the middle of a message is killed from outside."""
 
 EXIT_S: Final = 1.0
-"""How long the exit code of a child that has closed its pipe is waited for."""
+"""Wait for the exit code of a child that has closed its pipe."""
 
 STORED_EVERY_S: Final = 0.2
 """The shortest time between two stored reports of one stage."""

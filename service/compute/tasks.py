@@ -33,7 +33,7 @@ Observe = Callable[[Report], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChildSetup:
-    """What holds for all tasks of a child.
+    """Settings of all tasks of a child.
 
     ``name`` is what the process is called where processes are listed, ``tasks`` the module of its
     table. ``models`` is the folder of the body models, None for those shipped with the package;

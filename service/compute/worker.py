@@ -45,7 +45,7 @@ THREAD_LIMITS: Final = (
 """One thread a fit, fits side by side: threads within a fit cost more than they bring."""
 
 NOTICED_WITHIN_S: Final = 0.5
-"""How late a stop may be noticed that was requested in the moment a wait began."""
+"""Delay of a stop that was requested in the moment a wait began, at most."""
 
 
 def run_worker(

@@ -1,1 +1,1 @@
-"""What every process of the service relies on: folders, logs, kernels, retries."""
+"""Foundations of every process of the service: folders, logs, confinement, retries."""

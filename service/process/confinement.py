@@ -171,7 +171,7 @@ ALL_RIGHTS: Final = (1 << 16) - 1
 FILE_RIGHTS: Final = 0b111 | 1 << 14 | 1 << 15
 """Rights that a rule for a single file may name: also to write, truncate and control a device."""
 RIGHTS_BY_VERSION: Final = {1: 13, 2: 14, 3: 15, 5: 16}
-"""How many rights on files a version knows, from which on."""
+"""Number of rights on files that a version knows, from which on."""
 
 NETWORK_SINCE: Final = 4
 TCP: Final = 0b11

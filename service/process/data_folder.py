@@ -101,7 +101,7 @@ class Disk:
         self._reserve_bytes = reserve_bytes
 
     def free_bytes(self) -> int | None:
-        """What is left for us; None if nothing is kept here."""
+        """Bytes that are left for us; None if nothing is kept here."""
         if self._folder is None:
             return None
         folder = self._folder

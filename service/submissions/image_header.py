@@ -1,4 +1,4 @@
-"""What a picture's header says: kind, upright size, animation and focal length, by Pillow.
+"""A picture's header: kind, upright size, animation and focal length, by Pillow.
 
 Pillow opens a picture without decoding its pixels, but inflates the texts of a PNG and calls
 libraries for WebP and HEIC: the API has it done in a child (:mod:`service.compute.lanes`).

@@ -56,7 +56,7 @@ def picture_on(fit: FinishedFit, *, without_light: bool, size: int) -> Texture:
 
 
 def texture_for(colours: BodyColours, fit: FinishedFit) -> BodyTexture | None:
-    """What a body in another pose wears; None for plain colours, or where nothing is seen.
+    """Texture of a body in another pose; None for plain colours, or where nothing is seen.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def texture_files(texture: BodyTexture | None) -> dict[str, bytes]:
 
 
 def _person_in(segmentation: bytes, shape: tuple[int, int], *, max_pixels: int) -> Mask:
-    """Where a picture of this height and width shows the person."""
+    """Mask of the person in a picture of this height and width."""
     levels = decode_coverage(segmentation, field="mask", max_pixels=max_pixels)
     resized = cv2.resize(levels, shape[::-1], interpolation=cv2.INTER_LINEAR)
     return np.asarray(resized >= HALF)

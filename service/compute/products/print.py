@@ -175,7 +175,7 @@ def _row(each: Measurement) -> str:
 
 
 def _remarks(result: FitResult) -> str:
-    """What was assumed, and what is to be looked at, of the fit and of each picture."""
+    """Assumptions, findings and warnings, of the fit and of each picture."""
     said = [each.text for each in (*result.assumptions, *result.warnings)]
     for number, view in enumerate(result.views, start=1):
         where = f"Picture {number}: " if len(result.views) > 1 else ""
