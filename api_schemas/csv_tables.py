@@ -8,7 +8,7 @@ which spreadsheets take for "this is text".
 import csv
 import io
 from collections.abc import Iterable, Sequence
-from typing import Final
+from typing import Final, cast
 
 from pydantic import BaseModel
 
@@ -33,7 +33,7 @@ def _cell(value: object) -> object:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, tuple):
-        value = "; ".join(map(str, value))
+        value = "; ".join(map(str, cast("tuple[object, ...]", value)))
     if isinstance(value, str) and any(each.startswith(FORMULAS) for each in (value, value.strip())):
         return f"'{value}"
     return value

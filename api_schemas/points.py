@@ -143,6 +143,7 @@ def named_points(points: Points) -> dict[PointName, Point]:
 
     Rows with scores are a detector's proposals, and a score of 0 says that it saw nothing.
     """
+    named: dict[PointName, Point]
     if isinstance(points, dict):
         named = {name: _as_point(point) for name, point in points.items()}
     elif _has_scores(points):

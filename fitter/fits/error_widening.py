@@ -46,7 +46,7 @@ class Harm:
 
 _SMALL: Final = Harm(chest=1.1, waist=1.6, hip=1.1, weight=1.6)
 
-HARM: Final[Mapping[Code, Harm]] = {
+HARM: Final[Mapping[str, Harm]] = {
     Code.BLURRED: Harm(waist=1.7, hip=1.2, weight=1.4),
     Code.TOO_DARK: Harm(chest=1.2, waist=1.8, hip=1.3, weight=1.7),
     Code.PERSON_TOO_SMALL: _SMALL,
