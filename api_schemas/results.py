@@ -5,8 +5,6 @@ from pydantic import Field
 from api_schemas.base import WireModel
 from api_schemas.picture import Light
 from fitter.vocabulary.choices import (
-    BodyRegion,
-    Covering,
     Cues,
     Gender,
     OptimizerKind,
@@ -18,6 +16,7 @@ from fitter.vocabulary.outcomes import (
     Outcome,
     StanceKind,
     Verdict,
+    WornRegion,
 )
 from fitter.vocabulary.remarks import Remark
 
@@ -110,21 +109,6 @@ class ResultFile(WireModel):
     media_type: str
     size: int
     sha256: str
-
-
-class WornRegion(WireModel):
-    """How a region of the person is most probably covered.
-
-    ``bare`` is covered by underwear at most, a head that shows mostly skin; hair and hats are
-    ``loose``. ``ease_cm`` is how far loose clothes stand off the
-    trunk, or off seat and legs, where the outline shows them; null elsewhere.
-    """
-
-    region: BodyRegion
-    kind: Covering
-    probability: float
-    ease_cm: float | None
-    ease_standard_error_cm: float | None
 
 
 class ViewResult(WireModel):

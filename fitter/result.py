@@ -5,14 +5,13 @@ from dataclasses import dataclass, replace
 
 from fitter.arrays import Image, Mask, Shape, ShapeCovariance, Triangles, Vertices
 from fitter.measurement.definitions import Measurement
-from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
 from fitter.render.camera import Camera
 from fitter.segmentation.trimap import Trimap
 from fitter.vocabulary.choices import Cues, OptimizerKind, ViewKind
-from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, Outcome, Verdict
+from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, Outcome, Verdict, WornRegion
 from fitter.vocabulary.remarks import Remark, Severity
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {

@@ -10,9 +10,9 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask
 from fitter.detection.detector import DetectedBody
-from fitter.observation.observation import WornRegion
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import WornRegion
 from fitter.vocabulary.remarks import Box
 
 Joints = Mapping[str, Float[np.ndarray, "2"]]

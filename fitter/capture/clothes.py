@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from fitter.capture.capture import Capture
-from fitter.observation.observation import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
+from fitter.vocabulary.outcomes import WornRegion
 from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 _WORDS: Final = {

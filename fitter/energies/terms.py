@@ -40,11 +40,11 @@ from fitter.energies.silhouette import silhouette_energy, silhouette_rows
 from fitter.energies.stance import Tilt, stance_rows
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
-from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
+from fitter.vocabulary.outcomes import WornRegion
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -15,7 +15,6 @@ from fitter.fits.outline_search import PictureSearch
 from fitter.observation.clicks import check_places, scaled_clicks
 from fitter.observation.decoding import DecodedPicture
 from fitter.observation.focal_length import focal_length
-from fitter.observation.observation import WornRegion
 from fitter.observation.pixels import (
     bytes_of_display,
     display_working_picture,
@@ -27,7 +26,7 @@ from fitter.request import Click
 from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
 from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender, ViewKind
-from fitter.vocabulary.outcomes import FocalLengthSource
+from fitter.vocabulary.outcomes import FocalLengthSource, WornRegion
 from fitter.vocabulary.remarks import Note, Remark, assumed
 
 ASSUMED_HEIGHT_M = 1.7

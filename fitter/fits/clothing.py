@@ -24,7 +24,7 @@ from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.clothing_report import worn_regions
 from fitter.fits.equipment import PreparedModel
 from fitter.observation.maps import sample
-from fitter.observation.observation import Observation, WornRegion
+from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
 from fitter.render.rasterizer import Rendering, render
 from fitter.request import SaidClothing
@@ -40,6 +40,7 @@ from fitter.segmentation.skin_colour import (
     skin_map,
 )
 from fitter.vocabulary.choices import Clothing
+from fitter.vocabulary.outcomes import WornRegion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

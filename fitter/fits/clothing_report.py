@@ -10,11 +10,12 @@ from fitter.arrays import GreyImage, Mask
 from fitter.capture.clothes import what_is_loose
 from fitter.energies.objective import Objective
 from fitter.measurement.definitions import INTERVAL_SD
-from fitter.observation.observation import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE
+from fitter.vocabulary.outcomes import WornRegion
 from fitter.vocabulary.remarks import Code, Note, Remark, remark
 
 PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
@@ -66,7 +67,7 @@ def worn_regions(
             Covering.LOOSE: is_loose,
         }
         kind = max(shares, key=shares.__getitem__)
-        found.append(WornRegion(region=region, kind=kind, probability=shares[kind]))
+        found.append(_worn(region, kind, shares[kind]))
     return tuple(found)
 
 
@@ -85,21 +86,41 @@ def _head(regions: PersonRegions, skin: SkinMap) -> list[WornRegion]:
         return []
     shown = float(skin.coloured[seen].mean())
     kind = Covering.BARE if shown >= _MOST_OF else Covering.LOOSE
-    return [WornRegion(region=BodyRegion.HEAD, kind=kind, probability=max(shown, 1.0 - shown))]
+    return [_worn(BodyRegion.HEAD, kind, max(shown, 1.0 - shown))]
+
+
+def _worn(region: BodyRegion, kind: Covering, probability: float) -> WornRegion:
+    return WornRegion(
+        region=region,
+        kind=kind,
+        probability=probability,
+        ease_cm=None,
+        ease_standard_error_cm=None,
+    )
 
 
 def with_ease(
     worn: Sequence[WornRegion], objective: Objective, certain: Certainty
 ) -> tuple[WornRegion, ...]:
-    """The same with how far loose clothes stand off the body that was found."""
+    """The same with how far loose clothes stand off the body that was found.
+
+    Probabilities to a hundredth, eases to a millimetre.
+    """
     distances = covered_distances(objective, certain)
     found: list[WornRegion] = []
     for each in worn:
         told = distances.get(_EASES[each.region]) if each.region in _EASES else None
+        ease_cm, error_cm = None, None
         if each.kind is Covering.LOOSE and told is not None:
-            found.append(replace(each, ease_m=told[0], ease_standard_error_m=told[1]))
-        else:
-            found.append(each)
+            ease_cm, error_cm = (round(CENTIMETRES_PER_METRE * metres, 1) for metres in told)
+        found.append(
+            replace(
+                each,
+                probability=round(each.probability, 2),
+                ease_cm=ease_cm,
+                ease_standard_error_cm=error_cm,
+            )
+        )
     return tuple(found)
 
 

@@ -37,35 +37,13 @@ from fitter.observation.subject import check_light
 from fitter.render.camera import Camera
 from fitter.request import Click, SaidClothing, View
 from fitter.vocabulary.choices import (
-    BodyRegion,
     Clothing,
-    Covering,
     Posture,
     SegmentationKind,
     ViewKind,
 )
 from fitter.vocabulary.outcomes import FocalLengthSource
 from fitter.vocabulary.remarks import Remark
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WornRegion:
-    """Most probable covering of a region.
-
-    Attributes
-    ----------
-    probability
-        Of ``kind``, in [0, 1].
-    ease_m, ease_standard_error_m
-        How far clothes stand off the body there on average, metres; None where they do not, or
-        where the outline was not found on lines.
-    """
-
-    region: BodyRegion
-    kind: Covering
-    probability: float
-    ease_m: float | None = None
-    ease_standard_error_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

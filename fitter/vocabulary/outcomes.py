@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from fitter.vocabulary.choices import Facing
+from fitter.vocabulary.choices import BodyRegion, Covering, Facing
 
 
 class Outcome(StrEnum):
@@ -74,3 +74,19 @@ class LimbFacing:
     source: FacingSource
     ambiguous: bool
     alternative_nats: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WornRegion:
+    """Most probable covering of a region of the person, and its probability.
+
+    ``bare`` is covered by underwear at most, a head that shows mostly skin; hair and hats are
+    ``loose``. ``ease_cm`` is how far loose clothes stand off the trunk, or off seat and legs, on
+    average, where the outline shows them; null elsewhere.
+    """
+
+    region: BodyRegion
+    kind: Covering
+    probability: float
+    ease_cm: float | None
+    ease_standard_error_cm: float | None

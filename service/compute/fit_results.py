@@ -7,7 +7,6 @@ import numpy as np
 
 from api_schemas import results as wire
 from fitter.measurement.definitions import Measurement
-from fitter.observation.observation import WornRegion
 from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.result import FitResult, FitStage, FittedView
@@ -61,7 +60,7 @@ def _view(view: FittedView, part_names: Sequence[str]) -> wire.ViewResult:
         tilt=None if person.tilt is None else _tilt(person.tilt),
         limb_facing=view.limb_facing,
         findings=view.findings,
-        clothing=tuple(_worn(each) for each in found.clothing),
+        clothing=found.clothing,
         assumptions=view.assumptions,
         warnings=view.warnings,
     )
@@ -73,21 +72,6 @@ def _stage(stage: FitStage) -> wire.Stage:
         energies=_energies(stage.energies),
         measurements={each.name: round(each.value, 2) for each in stage.measurements},
     )
-
-
-def _worn(each: WornRegion) -> wire.WornRegion:
-    """To a hundredth, and to half a millimetre."""
-    return wire.WornRegion(
-        region=each.region,
-        kind=each.kind,
-        probability=round(each.probability, 2),
-        ease_cm=_centimetres(each.ease_m),
-        ease_standard_error_cm=_centimetres(each.ease_standard_error_m),
-    )
-
-
-def _centimetres(metres: float | None) -> float | None:
-    return None if metres is None else round(100.0 * metres, 1)
 
 
 def camera_result(camera: Camera) -> wire.CameraResult:

@@ -5,8 +5,8 @@ import pytest
 
 from fitter.capture.clothes import clothes
 from fitter.capture.posture import arms, free_share
-from fitter.observation.observation import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
+from fitter.vocabulary.outcomes import WornRegion
 from fitter.vocabulary.remarks import Code, Severity
 from tests.unit.capture.made_up import by_points_alone, capture, is_unchecked, person
 
@@ -44,7 +44,13 @@ def test_arms_are_looked_at_from_the_front_and_from_behind_alone_and_with_an_out
 
 def worn(**kinds: Covering) -> tuple[WornRegion, ...]:
     return tuple(
-        WornRegion(region=BodyRegion(region), kind=kind, probability=0.8)
+        WornRegion(
+            region=BodyRegion(region),
+            kind=kind,
+            probability=0.8,
+            ease_cm=None,
+            ease_standard_error_cm=None,
+        )
         for region, kind in kinds.items()
     )
 
