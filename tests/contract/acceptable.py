@@ -1,8 +1,8 @@
 """What no schema tells schemathesis: bytes that are a picture, and points that lie inside it.
 
-Fuzzing sends what the schema alone would have, and so do all forms; the JSON bodies of the other
-phases are made acceptable, so that these come to the jobs behind. ``schemathesis.toml`` names this
-module as its hooks.
+Fuzzing sends what the schema alone would have; what the other phases ask of fits is made
+acceptable, so that these come to the jobs behind. ``schemathesis.toml`` names this module as its
+hooks.
 """
 
 import hashlib
@@ -49,13 +49,8 @@ def before_call(context: HookContext, case: Case, kwargs: dict[str, Any]) -> Non
         return
     # The same key with another request is refused, and rightly so.
     case.headers.pop("idempotency-key", None)
-    if case.media_type == "application/json" and isinstance(case.body, dict):
-        case.body = case.body | _acceptable(case.method, case.operation.path)
-
-
-def _acceptable(method: str, path: str) -> dict[str, Any]:
-    """What is to be otherwise in a body for it to be accepted."""
-    return ACCEPTED if (method, path) == ("POST", "/v1/fits") else {}
+    if (case.method, case.operation.path) == ("POST", "/v1/fits") and isinstance(case.body, dict):
+        case.body = {"request": case.body.get("request", {}) | ACCEPTED}
 
 
 def _is_meant_well(case: Case) -> bool:

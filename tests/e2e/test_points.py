@@ -64,7 +64,7 @@ def test_proposed_points_lie_near_the_clicks_and_the_mask_has_the_picture_s_size
     assert found["doubtful"] == []
     mask = np.asarray(Image.open(io.BytesIO(base64.b64decode(found["mask"]))))
     assert mask.shape == (found["image_size"]["height"], found["image_size"]["width"]) == (960, 720)
-    ((left, top, right, bottom),) = [each["box"] for each in found["persons"]]
+    ((left, top, right, bottom),) = found["persons"]
     assert mask[int((top + bottom) / 2), int((left + right) / 2)] > 127
     assert mask[2, 2] < 10
 
