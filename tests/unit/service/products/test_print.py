@@ -34,7 +34,8 @@ def test_the_page_stands_alone():
 
 
 def test_what_is_said_is_escaped_and_named_by_its_picture():
-    warning = {"code": "x", "message": "<b>Look</b> & see."}
+    warning = {"code": "x", "severity": "warns", "reason": "<b>Look</b>", "remedy": "& see."}
+    warning["where"] = []
     view = EXAMPLE["views"][0]
     views = [view, view | {"warnings": [warning]}]
     told = page(views=views, warnings=[warning])
