@@ -93,12 +93,6 @@ _TYPES: Final = (
         description="The path exists but takes other methods; the Allow header lists them.",
     ),
     ProblemType(
-        slug="not-acceptable",
-        title="Nothing that is accepted can be sent",
-        status=406,
-        description="The Accept header names no format in which this can be had.",
-    ),
-    ProblemType(
         slug="request-timeout",
         title="The request came too slowly",
         status=408,

@@ -4,7 +4,6 @@ Every GLB is also there in other mesh formats, every picture that was sent as a 
 measurements as a table; they are never stored, and have the same bytes each time.
 """
 
-import re
 from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
@@ -51,13 +50,6 @@ PICTURES: Final = (JPEG, "image/png", "image/webp", "image/heic")
 TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
 """Files next to a textured mesh, to which its material refers."""
 
-ANYTHING: Final = "*/*"
-OCTETS: Final = "application/octet-stream"
-"""Matches every file: a client that accepts bytes accepts any file."""
-
-_RANGE: Final = re.compile(r"([\w!#$&^.+*-]+/[\w!#$&^.+*-]+)(?:\s*;.*)?")
-_WEIGHT: Final = re.compile(r";\s*[qQ]\s*=\s*(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)\s*(?:;|$)")
-
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
@@ -95,7 +87,7 @@ FORMATS: Final = """
 
 A mesh has metres with y up, and vertices and triangles in the body model's order (an STL has \
 triangles alone). A picture that was sent comes as a JPEG, upright and of the same size, where \
-`Accept` prefers that: most browsers cannot show HEIC. All other names ignore the header."""
+`Accept` names `image/jpeg` and not its kind: most browsers cannot show HEIC."""
 
 
 def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, dict[str, Any]]:
@@ -113,7 +105,7 @@ def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, 
             },
         }
         | NOT_MODIFIED
-        | documented("unusable-input", *problems)
+        | documented(*problems)
     )
 
 
@@ -149,7 +141,7 @@ class Rendition:
 def chosen_rendition(
     files: Mapping[str, StoredBlob], name: str, *, state: JobState, accept: str | None
 ) -> Rendition:
-    """Find a file by its name; a picture that was sent, as ``accept`` prefers it.
+    """Find a file by its name; a picture that was sent, as ``accept`` names it.
 
     ``state`` is that of the fit or product that has these files.
 
@@ -167,9 +159,10 @@ def chosen_rendition(
 
 
 def picture_rendition(picture: StoredBlob, *, accept: str | None) -> Rendition:
-    """A picture as it was sent, or as a JPEG where that is preferred."""
+    """A picture as it was sent, or as a JPEG where that alone is named as accepted."""
     sent, tag = picture.media_type, picture.digest
-    if sent != JPEG and preferred(accept, (sent, JPEG)) == JPEG:
+    named = accept or ""
+    if JPEG in named and not any(kind in named for kind in (sent, "image/*", "*/*")):
         return Rendition(media_type=JPEG, tag=f"{tag}-jpeg", source=picture, by_accept=True)
     return Rendition(media_type=sent, tag=tag, source=picture, by_accept=True)
 
@@ -216,46 +209,6 @@ def _named(there_are: Mapping[str, Rendition]) -> str:
         )
     return ", ".join(
         f"{stem} ({', '.join(endings)})" if endings else stem for stem, endings in said.items()
-    )
-
-
-def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
-    """Choose the offered type that an Accept header prefers most; None if none is acceptable.
-
-    Of types with equal weight, the one asked for more specifically wins, then the one named first,
-    then the one offered first (RFC 9110 12.5.1). An empty header accepts anything; entries that
-    cannot be parsed, and parameters other than the weight, are ignored.
-    """
-    ranges: dict[str, tuple[float, int]] = {}
-    for place, entry in enumerate((accept or "").split(",")):
-        found = _RANGE.fullmatch(entry.strip())
-        if found is not None:
-            kind = found[1].lower()
-            weight = _WEIGHT.search(entry)
-            ranges.setdefault(
-                ANYTHING if kind == OCTETS else kind, (float(weight[1]) if weight else 1.0, -place)
-            )
-    if not ranges:
-        return offered[0]
-    ranked: list[tuple[float, int, int, int, str]] = []
-    for place, media_type in enumerate(offered):
-        kinds = (media_type, f"{media_type.partition('/')[0]}/*", ANYTHING)
-        specificity, kind = next(
-            ((-each, kind) for each, kind in enumerate(kinds) if kind in ranges), (0, None)
-        )
-        if kind is not None and ranges[kind][0] > 0.0:
-            ranked.append((ranges[kind][0], specificity, ranges[kind][1], -place, media_type))
-    return max(ranked)[-1] if ranked else None
-
-
-def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
-    """Say that nothing acceptable is available, and what is."""
-    return problem_error(
-        slug="not-acceptable",
-        detail=f"{what} cannot be had as {shortened(accept or ANYTHING)}.",
-        remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
-        field="Accept",
-        headers={"Vary": "Accept"},
     )
 
 

@@ -44,13 +44,7 @@ POLL_AFTER_S: Final = 1
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 
-FIT_PROBLEMS: Final = (
-    "not-found",
-    "fit-expired",
-    "invalid-request",
-    "not-ready",
-    "internal-error",
-)
+FIT_PROBLEMS: Final = ("not-found", "fit-expired")
 """Problems that may keep a caller from a fit."""
 
 
@@ -89,7 +83,6 @@ def find(jobs: TenantJobs, fit_id: UUID) -> JobRecord:
     "",
     response_model=FitPage,
     summary="List fits, newest first",
-    responses=documented("invalid-request", "not-ready", "internal-error"),
 )
 def list_fits(
     context: Context,

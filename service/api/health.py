@@ -18,7 +18,7 @@ from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
 from api_schemas.service import Health
 from service.api.context import Context, Parts
-from service.api.problems import ProblemError, documented, problem_error
+from service.api.problems import ProblemError, problem_error
 from service.jobs.blobs import BlobsUnavailableError, StorageFullError, WatchedBlobs
 from service.jobs.engine import JobEngine
 from service.jobs.records import WorkerStatus
@@ -49,7 +49,6 @@ async def get_liveness() -> Health:
     "/healthz/ready",
     response_model=Health,
     summary="A fit can be accepted and finished",
-    responses=documented("not-ready"),
 )
 async def get_readiness(request: Request) -> Health:
     """Check that database and storage can be written and a worker is alive and able to work.
@@ -77,8 +76,7 @@ async def get_readiness(request: Request) -> Health:
             "description": "Prometheus' text format.",
             "content": {"text/plain": {"schema": {"type": "string"}}},
         }
-    }
-    | documented("not-ready", "internal-error"),
+    },
 )
 def get_metrics(context: Context) -> Response:
     """Return queue, workers, endings, durations and requests; needs a key made for metrics."""

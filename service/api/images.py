@@ -33,12 +33,7 @@ from service.api.storage import (
     writing,
 )
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
-from service.jobs.images import (
-    ImageQuotaError,
-    ImageRecord,
-    KeptImage,
-    NewImage,
-)
+from service.jobs.images import ImageQuotaError, ImageRecord, KeptImage, NewImage
 from service.jobs.inputs import IMAGE
 from service.jobs.records import StoredBlob
 from service.submissions.refusal import refused_field
@@ -70,16 +65,7 @@ _LOCATION: Final = {
         },
         201: {"description": "Kept.", "model": UploadedImage, "headers": _LOCATION},
     }
-    | documented(
-        "malformed-request",
-        "payload-too-large",
-        "unsupported-media-type",
-        "invalid-request",
-        "quota-exceeded",
-        "insufficient-storage",
-        "not-ready",
-        "internal-error",
-    ),
+    | documented("insufficient-storage"),
 )
 async def upload_image(request: Request, response: Response, context: Context) -> UploadedImage:
     """Keep a picture, to be named by its id in fits and initial poses.
@@ -99,22 +85,13 @@ async def upload_image(request: Request, response: Response, context: Context) -
     "",
     response_model=ImagePage,
     summary="List uploaded pictures, newest first",
-    responses=documented("invalid-request", "not-ready", "internal-error"),
 )
 def list_images(
-    response: Response,
-    context: Context,
-    limit: Limit = 50,
-    cursor: Cursor = None,
+    response: Response, context: Context, limit: Limit = 50, cursor: Cursor = None
 ) -> ImagePage:
     """List the tenant's pictures. `next` and the Link header lead to the following page."""
     found = context.images.images(limit=limit + 1, before=read_cursor(cursor))
-    page, following = page_of(
-        found,
-        response,
-        path=PATH,
-        limit=limit,
-    )
+    page, following = page_of(found, response, path=PATH, limit=limit)
     return ImagePage(images=tuple(map(_represent, page)), next=following)
 
 
@@ -122,7 +99,7 @@ def list_images(
     "/{image_id}",
     response_model=UploadedImage,
     summary="Look at an uploaded picture's facts",
-    responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    responses=documented("not-found"),
 )
 def get_image(
     image_id: Annotated[ImageId, Path()], response: Response, context: Context
@@ -138,22 +115,14 @@ def get_image(
     "/{image_id}/picture",
     summary="An uploaded picture itself",
     response_class=Response,
-    responses=_PICTURE
-    | NOT_MODIFIED
-    | documented(
-        "not-found",
-        "invalid-request",
-        "unusable-input",
-        "not-ready",
-        "internal-error",
-    ),
+    responses=_PICTURE | NOT_MODIFIED | documented("not-found"),
 )
 async def get_picture(
     image_id: Annotated[ImageId, Path()], context: Context, wanted: Wanted
 ) -> Response:
     """Return the picture as it was sent.
 
-    With `Accept: image/jpeg` a picture of another kind comes as a JPEG, upright and of the same
+    Where `Accept` names `image/jpeg` and not its kind, it comes as a JPEG, upright and of the same
     size: most browsers cannot show HEIC.
     """
     record = await run_in_threadpool(context.images.find, image_id)
@@ -169,7 +138,7 @@ async def get_picture(
     "/{image_id}",
     status_code=204,
     summary="Erase an uploaded picture",
-    responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    responses=documented("not-found"),
 )
 async def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
     """Erase a picture; fits that were made of it are not affected."""

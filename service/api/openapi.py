@@ -78,9 +78,12 @@ ANSWERED_EVERYWHERE: Final = documented(
     "forbidden",
     "method-not-allowed",
     "request-timeout",
+    "invalid-request",
     "too-many-requests",
-    "too-many-connections",
+    "internal-error",
+    "not-ready",
 )
+"""Problems of any request; an operation names those of its own."""
 
 _KEY_SCHEME = "apiKey"
 _SECURITY: Final = {

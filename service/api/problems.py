@@ -111,7 +111,7 @@ def retry_header(reason: Problem) -> dict[str, str]:
 def install_problem_handlers(app: FastAPI) -> None:
     """Make exceptions of resources problems; :mod:`service.api.observation` does so with faults."""
     app.add_exception_handler(ProblemError, _on_problem)
-    app.add_exception_handler(RefusedError, _on_refusal)
+    app.add_exception_handler(RefusedError, _on_problem)
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(EngineUnavailableError, _on_unavailable)
@@ -120,13 +120,8 @@ def install_problem_handlers(app: FastAPI) -> None:
 
 
 def _on_problem(request: Request, error: Exception) -> Response:
-    assert isinstance(error, ProblemError)
-    return problem_response(request, error.problem, error.headers)
-
-
-def _on_refusal(request: Request, error: Exception) -> Response:
-    assert isinstance(error, RefusedError)
-    return problem_response(request, error.problem)
+    assert isinstance(error, ProblemError | RefusedError)
+    return problem_response(request, error.problem, getattr(error, "headers", None))
 
 
 def _on_validation(request: Request, error: Exception) -> Response:
@@ -228,7 +223,7 @@ ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
     "/{slug}",
     response_model=ProblemType,
     summary="What a problem type means",
-    responses=documented("not-found", "invalid-request"),
+    responses=documented("not-found"),
 )
 def get_problem_type(
     slug: Annotated[str, Path(json_schema_extra={"enum": list(PROBLEM_TYPES)})],

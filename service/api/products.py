@@ -60,7 +60,7 @@ from service.api.requests import (
     read_json_or_form,
 )
 from service.api.storage import disk_full, erase_at_once, store, stored_content, storing, with_blobs
-from service.api.submissions import accepted_job
+from service.api.submissions import TO_FOLLOW, accepted_job
 from service.jobs.inputs import CHART, CLIP, RESULT, product_inputs
 from service.jobs.records import ACTIVE, JobRecord, NewJob, StoredBlob, Submission, SubmitOutcome
 from service.submissions.refusal import RefusedError, refused, refused_field
@@ -99,24 +99,9 @@ ProductId = Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
     openapi_extra=body(json=json_content(ProductRequest), form=form_content(_PARTS)),
     responses={
         200: {"model": Product, "description": "It is there, or making it has failed."},
-        202: {
-            "description": "It is being made.",
-            "headers": {
-                "Location": {"description": "Path of the product.", "schema": {"type": "string"}},
-                "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
-            },
-        },
+        202: {"description": "It is being made.", "headers": TO_FOLLOW},
     }
-    | documented(
-        "malformed-request",
-        "no-result",
-        "payload-too-large",
-        "unsupported-media-type",
-        "too-many-requests",
-        "queue-full",
-        "insufficient-storage",
-        *FIT_PROBLEMS,
-    ),
+    | documented("no-result", "insufficient-storage", *FIT_PROBLEMS),
 )
 async def make_product(
     fit: Found, request: Request, response: Response, context: Context, prefer: Prefer = None

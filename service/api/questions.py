@@ -1,10 +1,11 @@
 """Questions that are answered at once: points of a picture, initial poses, and bodies."""
 
 import base64
+from collections.abc import Mapping
 from enum import Enum
-from typing import Final
+from typing import Annotated, Final, Literal
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.csv_tables import CSV, measurements_csv
@@ -18,7 +19,7 @@ from api_schemas.questions import (
 )
 from api_schemas.service import BodyModels
 from service.api.context import Context
-from service.api.files import BINARY, GLB, MESH_FORMATS, AcceptHeader, not_acceptable, preferred
+from service.api.files import BINARY, GLB, MESH_FORMATS
 from service.api.images import image_content
 from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import (
@@ -48,25 +49,18 @@ from service.submissions.submission import (
 ROUTER: Final = APIRouter()
 ESTIMATES: Final[list[str | Enum]] = ["estimates"]
 
-PROBLEMS: Final = (
-    "malformed-request",
-    "payload-too-large",
-    "unsupported-media-type",
-    "invalid-request",
-    "unusable-input",
-    "not-ready",
-    "internal-error",
-)
-"""Problems with a question or with the estimator."""
-
-NOT_KEPT: Final = {"Cache-Control": "no-store"}
-
 _PARTS: Final = {
     IMAGE: Part(description="JPEG, PNG, WebP or HEIC. None where it was uploaded."),
     REQUEST: json_part(PointsRequest, least=0),
 }
-_ENDINGS: Final = {media_type: ending for ending, media_type in MESH_FORMATS.items()}
-_FORMS_OF_A_BODY: Final = (JSON, GLB, *_ENDINGS, CSV)
+BodyFormat = Annotated[Literal["json", "glb", "obj", "ply", "stl", "csv"], Query(alias="format")]
+_BODIES: Final[Mapping[str, str]] = {
+    "json": JSON,
+    "glb": GLB,
+    **MESH_FORMATS,
+    "csv": CSV,
+}
+"""Media types of a body, by the names of formats."""
 
 
 @ROUTER.post(
@@ -82,7 +76,7 @@ _FORMS_OF_A_BODY: Final = (JSON, GLB, *_ENDINGS, CSV)
             "content": {JSON: json_content(PointsProposal)},
         }
     }
-    | documented("not-found", *PROBLEMS),
+    | documented("not-found"),
 )
 async def propose_points(request: Request, context: Context) -> Response:
     """Return who is in a picture, where a detector sees their joints, and what is wrong with it.
@@ -125,7 +119,7 @@ async def propose_points(request: Request, context: Context) -> Response:
     if parts[FILE]:
         mask = base64.b64encode(parts[FILE]).decode()
         proposal = proposal.model_copy(update={"mask": mask})
-    return Response(proposal.model_dump_json(), media_type=JSON, headers=NOT_KEPT)
+    return Response(proposal.model_dump_json(), media_type=JSON)
 
 
 @ROUTER.post(
@@ -134,8 +128,7 @@ async def propose_points(request: Request, context: Context) -> Response:
     response_class=Response,
     summary="Pose a body by clicks alone",
     openapi_extra=body(json=json_content(InitialPoseRequest)),
-    responses={200: {"model": InitialPose, "description": "The initial body, seen by its camera."}}
-    | documented(*PROBLEMS),
+    responses={200: {"model": InitialPose, "description": "The initial body, seen by its camera."}},
 )
 async def estimate_initial_pose(request: Request, context: Context) -> Response:
     """Return pose, camera and outline of the body a fit would begin from.
@@ -151,7 +144,7 @@ async def estimate_initial_pose(request: Request, context: Context) -> Response:
     points = checked_points(asked.points, width=size.width, height=size.height)
     named = asked.model_copy(update={"points": points})
     parts = await context.estimators.answer(questions.INITIAL_POSE, named)
-    return Response(parts[ANSWER], media_type=JSON, headers=NOT_KEPT)
+    return Response(parts[ANSWER], media_type=JSON)
 
 
 @ROUTER.post(
@@ -162,37 +155,27 @@ async def estimate_initial_pose(request: Request, context: Context) -> Response:
     openapi_extra=body(json=json_content(BodyRequest)),
     responses={
         200: {
-            "description": "The most probable body; as a file if `Accept` asks for one.",
-            "content": dict.fromkeys(_FORMS_OF_A_BODY, BINARY) | {JSON: json_content(BodyEstimate)},
+            "description": "The most probable body, in the format that was asked for.",
+            "content": dict.fromkeys(_BODIES.values(), BINARY) | {JSON: json_content(BodyEstimate)},
         }
-    }
-    | documented("not-acceptable", *PROBLEMS),
+    },
 )
-async def estimate_body(
-    request: Request, context: Context, accept: AcceptHeader = None
-) -> Response:
+async def estimate_body(request: Request, context: Context, kind: BodyFormat = "json") -> Response:
     """Return the most probable body of a gender and of any known measurements.
 
-    With its measurements, between which values 95 % of such people lie. As `Accept` asks the answer
-    is the mesh (`model/gltf-binary`, `model/obj`, `model/ply`, `model/stl`) or the measurements as
-    a table (`text/csv`). Of types wanted alike the one named first counts.
+    With its measurements, between which values 95 % of such people lie. `format` asks for the mesh,
+    or with `csv` for the measurements as a table.
     """
-    wanted = preferred(accept, _FORMS_OF_A_BODY)
-    if wanted is None:
-        raise not_acceptable(accept, what="A body", offered=_FORMS_OF_A_BODY)
     asked = (await read_json(request, BodyRequest)).asked
-    as_mesh = wanted == GLB or wanted in _ENDINGS
-    task = BodyTask(request=asked, with_glb=as_mesh)
+    task = BodyTask(request=asked, with_glb=kind not in ("json", "csv"))
     parts = await context.estimators.answer(questions.BODY, task)
-    content, glb = parts[ANSWER], parts[FILE]
-    if wanted == GLB:
-        content = glb
-    elif as_mesh:
-        content = await context.estimators.convert(glb, _ENDINGS[wanted])
-    elif wanted == CSV:
+    content = parts[FILE] if task.with_glb else parts[ANSWER]
+    if kind in MESH_FORMATS:
+        content = await context.estimators.convert(content, kind)
+    elif kind == "csv":
         estimate = BodyEstimate.model_validate_json(content)
         content = measurements_csv(estimate.measurements)
-    return Response(content, media_type=wanted, headers=NOT_KEPT | {"Vary": "Accept"})
+    return Response(content, media_type=_BODIES[kind])
 
 
 @ROUTER.get(
@@ -200,7 +183,6 @@ async def estimate_body(
     tags=["body models"],
     response_model=BodyModels,
     summary="The bodies there are",
-    responses=documented("invalid-request", "not-ready", "internal-error"),
 )
 def list_body_models(context: Context) -> BodyModels:
     """Return genders, mean heights, landmarks, accepted points, versions and provenance."""

@@ -15,7 +15,7 @@ from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import FieldProblem, field_problem, shortened
-from service.api.problems import ProblemError, problem_error
+from service.api.problems import ProblemError, documented, problem_error
 from service.api.storage import disk_full
 from service.jobs.blobs_local import FULL
 from service.submissions.refusal import parsed
@@ -93,10 +93,14 @@ def form_content(parts: Mapping[str, Part]) -> dict[str, Any]:
 
 
 def body(**content: Mapping[str, Any]) -> dict[str, Any]:
-    """Describe a body for the OpenAPI document: ``json``, ``form`` or both."""
+    """Describe a body for the OpenAPI document, ``json``, ``form`` or both, and its refusals."""
     kinds = {"json": JSON, "form": MULTIPART}
     described = {kinds[name]: each for name, each in content.items()}
-    return {"requestBody": {"required": True, "content": described}}
+    refusals = documented("malformed-request", "payload-too-large", "unsupported-media-type")
+    return {
+        "requestBody": {"required": True, "content": described},
+        "responses": {str(status): each for status, each in refusals.items()},
+    }
 
 
 async def read_json(request: Request, kind: type[Model]) -> Received[Model]:

@@ -59,6 +59,12 @@ _PARTS: Final = {
     ),
 }
 
+TO_FOLLOW: Final = {
+    "Location": {"description": "Where to look at it.", "schema": {"type": "string"}},
+    "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+}
+"""Headers of an answer that comes before the end."""
+
 IdempotencyKey = Annotated[
     str | None,
     Header(
@@ -77,27 +83,9 @@ IdempotencyKey = Annotated[
     openapi_extra=body(form=form_content(_PARTS)),
     responses={
         200: {"model": Fit, "description": "Ended within the time of `Prefer: wait`."},
-        202: {
-            "description": "Accepted.",
-            "headers": {
-                "Location": {"description": "Path of the fit.", "schema": {"type": "string"}},
-                "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
-            },
-        },
+        202: {"description": "Accepted.", "headers": TO_FOLLOW},
     }
-    | documented(
-        "malformed-request",
-        "payload-too-large",
-        "unsupported-media-type",
-        "unusable-input",
-        "idempotency-key-reused",
-        "invalid-request",
-        "too-many-requests",
-        "queue-full",
-        "insufficient-storage",
-        "not-ready",
-        "internal-error",
-    ),
+    | documented("idempotency-key-reused", "insufficient-storage"),
 )
 async def submit_fit(
     request: Request,

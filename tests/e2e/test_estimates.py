@@ -23,7 +23,7 @@ def test_bodies_poses_and_contradictions_are_answered_at_once(
     estimate = client.post("/v1/bodies", json=known).raise_for_status().json()
     weight = next(each for each in estimate["measurements"] if each["name"] == "weight")
     assert abs(weight["value"] - 64.5) < 0.1
-    glb = client.post("/v1/bodies", json=known, headers={"Accept": "model/gltf-binary"})
+    glb = client.post("/v1/bodies?format=glb", json=known)
     (tmp_path / "body.glb").write_bytes(glb.content)
     mesh = trimesh.load_mesh(tmp_path / "body.glb")
     assert mesh.is_watertight

@@ -34,10 +34,8 @@ def test_a_body_comes_with_its_measurements(service: Service):
     assert estimate.measurements
 
 
-def test_a_body_s_file_is_the_answer_where_it_is_accepted_alone(service: Service):
-    alone = service.client.post(
-        "/v1/bodies", json={"gender": "male"}, headers={"Accept": "model/gltf-binary"}
-    )
+def test_a_body_s_file_is_the_answer_where_it_is_asked_for(service: Service):
+    alone = service.client.post("/v1/bodies?format=glb", json={"gender": "male"})
     assert alone.headers["content-type"] == "model/gltf-binary"
     assert alone.content == GLB
 

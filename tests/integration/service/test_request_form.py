@@ -35,7 +35,7 @@ def test_a_misspelt_filter_is_refused_by_its_name(service: Service, path, known)
         ("GET", "/v1/body-models"),
         ("GET", f"/v1/images/{'0' * 64}"),
         ("POST", "/v1/fits"),
-        ("POST", "/v1/bodies"),
+        ("POST", "/v1/points"),
         ("DELETE", f"/v1/images/{'0' * 64}"),
     ],
 )
