@@ -7,6 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -107,7 +108,7 @@ def serve(
     from service.compute.lanes import header_lane
     from service.jobs.engine import JobEngine
     from service.jobs.keys import KeyRing
-    from service.jobs.notices import NoticeRunner, Sender
+    from service.jobs.notices import send_notice, start_notices, stop_notices
 
     url = settings.system_database_url
     prepare_database(url)
@@ -124,13 +125,7 @@ def serve(
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
     )
-    sender = Sender(
-        blobs,
-        represent,
-        secret=settings.webhook_secret,
-        allowed_hosts=settings.webhook_hosts,
-    )
-    notices = NoticeRunner(database, sender.send)
+    send = partial(send_notice, blobs=blobs, represent=represent, settings=settings)
     draining = threading.Event()
     app = create_app(
         settings=settings,
@@ -157,11 +152,11 @@ def serve(
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
     try:
         engine.start()
-        notices.start()
+        start_notices(database, send)
         server.run(sockets=[listener])
     finally:
         beside.stop()
-        notices.stop()
+        stop_notices()
         engine.close()
     return _status(beside)
 

@@ -4,6 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Final
 
 import sqlalchemy as sa
@@ -22,7 +23,7 @@ from service.jobs.database import (
 from service.jobs.executions import client_of
 from service.jobs.images import TenantImages
 from service.jobs.liveness import WorkerWatch
-from service.jobs.notices import Notices
+from service.jobs.notices import enqueue_notice
 from service.jobs.records import (
     EngineStatistics,
     EngineUnavailableError,
@@ -228,10 +229,11 @@ class JobEngine:
         self._retention_s = retention_s
         self._heartbeat_s = heartbeat_s
         self._client = client_of(database)
-        notices = Notices(self._client)
-        self._endings = Endings(retention_s=retention_s, notify=notices.enqueue)
+        self._endings = Endings(
+            retention_s=retention_s, notify=partial(enqueue_notice, self._client)
+        )
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
-        self._sweeper = Sweeper(database, self._client, blobs, notices, interval_s=sweep_interval_s)
+        self._sweeper = Sweeper(database, self._client, blobs, interval_s=sweep_interval_s)
         self._stopped = threading.Event()
         self._watching = threading.Thread(target=self._watch_workers, name="watch", daemon=True)
 

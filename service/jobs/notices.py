@@ -103,198 +103,167 @@ def notice_of(job_id: str) -> str:
     return f"{WORKFLOW}-{job_id}"
 
 
-class Notices:
-    """Enqueues notices."""
-
-    def __init__(self, client: DBOSClient) -> None:
-        self._client = client
-
-    def enqueue(self, connection: sa.Connection, job: JobRecord) -> None:
-        """Have the end of a job told, in the transaction that ends it, if anybody asked for it."""
-        if job.webhook is not None:
-            self._client.enqueue_in_transaction(
-                connection,
-                {
-                    "workflow_name": WORKFLOW,
-                    "queue_name": QUEUE,
-                    "workflow_id": notice_of(job.id),
-                    "app_version": EXECUTION_VERSION,
-                },
-                job.id,
-            )
-
-    def enqueue_left(self) -> None:
-        """Enqueue again what processes that are gone have left."""
-        latest = (datetime.now(UTC) - LEFT_AFTER).isoformat()
-        left = self._client.list_workflows(
-            name=WORKFLOW, status="PENDING", end_time=latest, load_input=False, load_output=False
+def enqueue_notice(client: DBOSClient, connection: sa.Connection, job: JobRecord) -> None:
+    """Have the end of a job told, in the transaction that ends it, if anybody asked for it."""
+    if job.webhook is not None:
+        client.enqueue_in_transaction(
+            connection,
+            {
+                "workflow_name": WORKFLOW,
+                "queue_name": QUEUE,
+                "workflow_id": notice_of(job.id),
+                "app_version": EXECUTION_VERSION,
+            },
+            job.id,
         )
-        for each in left:
-            self._client.resume_workflow(each.workflow_id, queue_name=QUEUE)
-
-    def declare_queue(self) -> None:
-        """Make the queue, of which every API process takes."""
-        self._client.register_queue(QUEUE, polling_interval_sec=POLL_S)
 
 
-class NoticeRunner:
-    """Runs the workflows in an API process; ``send`` raises where a notice is not accepted."""
+def enqueue_left(client: DBOSClient) -> None:
+    """Enqueue again what processes that are gone have left."""
+    latest = (datetime.now(UTC) - LEFT_AFTER).isoformat()
+    left = client.list_workflows(
+        name=WORKFLOW, status="PENDING", end_time=latest, load_input=False, load_output=False
+    )
+    for each in left:
+        client.resume_workflow(each.workflow_id, queue_name=QUEUE)
 
-    def __init__(self, database: sa.Engine, send: Callable[[JobRecord], Awaitable[None]]) -> None:
-        self._database = database
-        self._send = send
-        self._turns = defaultdict[str, asyncio.Semaphore](lambda: asyncio.Semaphore(AT_ONCE))
 
-    def start(self) -> None:
-        """Begin to send what is enqueued, and what this machine's last process left."""
-        # What is retried is a warning of its own.
-        executor_id = f"notices-{os.uname().nodename[:40]}"
-        configure(self._database, executor_id=executor_id, log_level="ERROR")
-        self._register()
-        DBOS.listen_queues([QUEUE])
-        Notices(client_of(self._database)).declare_queue()
-        DBOS.launch()
+def start_notices(database: sa.Engine, send: Callable[[JobRecord], Awaitable[None]]) -> None:
+    """Begin to send what is enqueued, and what this machine's last API process left.
 
-    def stop(self) -> None:
-        """Stop; what is under way is sent again."""
-        DBOS.destroy()
+    ``send`` raises where a notice is not accepted.
+    """
+    # What is retried is a warning of its own.
+    configure(database, executor_id=f"notices-{os.uname().nodename[:40]}", log_level="ERROR")
+    turns = defaultdict[str, asyncio.Semaphore](lambda: asyncio.Semaphore(AT_ONCE))
 
-    def _register(self) -> None:
-        @DBOS.step(
-            name="send",
-            retries_allowed=True,
-            interval_seconds=FIRST_PAUSE_S,
-            backoff_rate=LONGER_BY,
-            max_attempts=ATTEMPTS,
-        )
-        async def send(job_id: str) -> None:
-            job = await asyncio.to_thread(self._find, job_id)
-            if job is not None:
-                async with self._turns[job.tenant]:
-                    await self._send(job)
-
-        @DBOS.workflow(name=WORKFLOW)
-        async def notice(job_id: str) -> None:
-            try:
-                await send(job_id)
-            except error.DBOSMaxStepRetriesExceeded:
-                LOG.warning("A notice was given up.", extra=fields(job=job_id))
-
-        self._workflow = notice
-
-    def _find(self, job_id: str) -> JobRecord | None:
-        with self._database.connect() as connection:
+    def find(job_id: str) -> JobRecord | None:
+        with database.connect() as connection:
             return find_job(connection, job_id)
+
+    @DBOS.step(
+        name="send",
+        retries_allowed=True,
+        interval_seconds=FIRST_PAUSE_S,
+        backoff_rate=LONGER_BY,
+        max_attempts=ATTEMPTS,
+    )
+    async def attempt(job_id: str) -> None:
+        job = await asyncio.to_thread(find, job_id)
+        if job is not None:
+            async with turns[job.tenant]:
+                await send(job)
+
+    @DBOS.workflow(name=WORKFLOW)
+    async def notice(job_id: str) -> None:  # pyright: ignore[reportUnusedFunction]
+        try:
+            await attempt(job_id)
+        except error.DBOSMaxStepRetriesExceeded:
+            LOG.warning("A notice was given up.", extra=fields(job=job_id))
+
+    DBOS.listen_queues([QUEUE])
+    client_of(database).register_queue(QUEUE, polling_interval_sec=POLL_S)
+    DBOS.launch()
+
+
+def stop_notices() -> None:
+    """Stop sending; what is under way is sent again."""
+    DBOS.destroy()
 
 
 class NotAcceptedError(Exception):
     """The receiver does not have the notice; the message names neither it nor its address."""
 
 
-class Sender:
-    """Posts notices to public addresses, and to ``allowed_hosts`` wherever they are.
+async def send_notice(
+    job: JobRecord, *, blobs: BlobStore, represent: Callable[[JobRecord], Fit], settings: Settings
+) -> None:
+    """Tell of a job's end; a receiver that answers 410 is not asked again.
+
+    ``represent`` is how callers see a fit. The service's secret signs if the caller sent none.
+
+    Raises
+    ------
+    NotAcceptedError
+        If the receiver does not accept it.
+    BlobsUnavailableError
+        If the storage does not say whom to notify.
+    """
+    if job.webhook is None:
+        return
+    try:
+        stored = await asyncio.to_thread(blobs.get, job.id, job.webhook.digest)
+    except BlobMissingError:
+        # The job was erased meanwhile.
+        return
+    target = WebhookTarget.model_validate_json(stored)
+    secret = target.secret or settings.webhook_secret
+    if secret is None:
+        return
+    # The same at every attempt.
+    event = WebhookEvent(
+        type=WebhookEventType(f"fit.{job.state}"),
+        timestamp=datetime.fromtimestamp(job.finished_at or 0.0, UTC),
+        data=represent(job),
+    )
+    body = event.model_dump_json().encode()
+    signed = signed_headers(notice_id=job.id, timestamp=int(time.time()), body=body, secret=secret)
+    headers = {"content-type": "application/json", "user-agent": USER_AGENT, **signed}
+    status = await post(target.url, headers, body, allowed_hosts=settings.webhook_hosts)
+    if not httpx.codes.is_success(status) and status != httpx.codes.GONE:
+        message = f"The receiver answered {status}."
+        raise NotAcceptedError(message)
+    # Its address may hold a secret of the receiver's.
+    LOG.info("A notice was sent.", extra=fields(job=job.id, status=status))
+
+
+async def post(
+    url: str,
+    headers: Mapping[str, str],
+    body: bytes,
+    *,
+    allowed_hosts: Collection[str],
+    tls: ssl.SSLContext | None = None,
+) -> int:
+    """Post to a public address, or to ``allowed_hosts`` wherever they are; return the status.
 
     Nothing of this process is sent along: no proxy, no cookies, no credentials. Redirects are not
-    followed, and only the head of the answer is read. ``secret`` signs if the caller sent none;
-    ``represent`` is how callers see a fit.
+    followed, and only the head of the answer is read.
+
+    Raises
+    ------
+    NotAcceptedError
+        If there is no answer.
     """
-
-    def __init__(
-        self,
-        blobs: BlobStore,
-        represent: Callable[[JobRecord], Fit],
-        *,
-        secret: str | None,
-        allowed_hosts: Collection[str],
-        tls: ssl.SSLContext | None = None,
-    ) -> None:
-        self._blobs = blobs
-        self._represent = represent
-        self._secret = secret
-        self._allowed_hosts = allowed_hosts
-        self._tls = tls or httpx.create_ssl_context()
-
-    async def send(self, job: JobRecord) -> None:
-        """Tell of a job's end; a receiver that answers 410 is not asked again.
-
-        Raises
-        ------
-        NotAcceptedError
-            If the receiver does not accept it.
-        BlobsUnavailableError
-            If the storage does not say whom to notify.
-        """
-        target = await asyncio.to_thread(self._target, job)
-        secret = None if target is None else target.secret or self._secret
-        if target is None or secret is None:
-            return
-        # The same at every attempt.
-        event = WebhookEvent(
-            type=WebhookEventType(f"fit.{job.state}"),
-            timestamp=datetime.fromtimestamp(job.finished_at or 0.0, UTC),
-            data=self._represent(job),
-        )
-        body = event.model_dump_json().encode()
-        signed = signed_headers(
-            notice_id=job.id, timestamp=int(time.time()), body=body, secret=secret
-        )
-        headers = {"content-type": "application/json", "user-agent": USER_AGENT, **signed}
-        status = await self.post(target.url, headers=headers, body=body)
-        accepted = httpx.codes.is_success(status)
-        if not accepted and status != httpx.codes.GONE:
-            message = f"The receiver answered {status}."
-            raise NotAcceptedError(message)
-        # Its address may hold a secret of the receiver's.
-        LOG.info("A notice was sent.", extra=fields(job=job.id, status=status))
-
-    def _target(self, job: JobRecord) -> WebhookTarget | None:
-        """Whom to notify of a job's end; None if nobody, or if the job was erased meanwhile."""
-        if job.webhook is None:
-            return None
-        try:
-            return WebhookTarget.model_validate_json(self._blobs.get(job.id, job.webhook.digest))
-        except BlobMissingError:
-            return None
-
-    async def post(self, url: str, *, headers: Mapping[str, str], body: bytes) -> int:
-        """Post, and return the receiver's status.
-
-        Raises
-        ------
-        NotAcceptedError
-            If there is no answer.
-        """
-        try:
-            async with asyncio.timeout(ATTEMPT_WITHIN_S):
-                return await self._post(httpx.URL(url), headers, body)
-        except TimeoutError as error:
-            message = f"No answer within {ATTEMPT_WITHIN_S:g} s."
-            raise NotAcceptedError(message) from error
-        except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
-            # By kind alone: the message may quote the address, or what is there.
-            message = f"No connection, or none that lasted ({type(error).__name__})."
-            raise NotAcceptedError(message) from None
-
-    async def _post(self, url: httpx.URL, headers: Mapping[str, str], body: bytes) -> int:
-        host = url.raw_host.decode()
-        address, *_ = await resolve(host, self._allowed_hosts)
-        async with (
-            httpx.AsyncClient(
-                verify=self._tls,
-                trust_env=False,
-                # Who calls limits all of it.
-                timeout=httpx.Timeout(None, connect=CONNECT_WITHIN_S),
-            ) as client,
-            client.stream(
-                "POST",
-                url.copy_with(host=str(address)),
-                content=body,
-                headers={"host": url.netloc.decode(), **headers},
-                # The certificate must be for the name, not for the address.
-                extensions={"sni_hostname": host},
-            ) as response,
-        ):
-            return response.status_code
+    try:
+        parsed = httpx.URL(url)
+        host = parsed.raw_host.decode()
+        async with asyncio.timeout(ATTEMPT_WITHIN_S):
+            address, *_ = await resolve(host, allowed_hosts)
+            async with (
+                httpx.AsyncClient(
+                    verify=tls or httpx.create_ssl_context(),
+                    trust_env=False,
+                    # Who calls limits all of it.
+                    timeout=httpx.Timeout(None, connect=CONNECT_WITHIN_S),
+                ) as client,
+                client.stream(
+                    "POST",
+                    parsed.copy_with(host=str(address)),
+                    content=body,
+                    headers={"host": parsed.netloc.decode(), **headers},
+                    # The certificate must be for the name, not for the address.
+                    extensions={"sni_hostname": host},
+                ) as response,
+            ):
+                return response.status_code
+    except TimeoutError as error:
+        message = f"No answer within {ATTEMPT_WITHIN_S:g} s."
+        raise NotAcceptedError(message) from error
+    except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
+        # By kind alone: the message may quote the address, or what is there.
+        message = f"No connection, or none that lasted ({type(error).__name__})."
+        raise NotAcceptedError(message) from None
 
 
 def signed_headers(*, notice_id: str, timestamp: int, body: bytes, secret: str) -> dict[str, str]:

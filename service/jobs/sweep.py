@@ -20,7 +20,7 @@ from sqlalchemy.exc import OperationalError
 from api_schemas.jobs import JobState
 from service.jobs.blobs import BlobStore, BlobsUnavailableError
 from service.jobs.database import insert_or_update, read_then_write
-from service.jobs.notices import Notices, notice_of
+from service.jobs.notices import enqueue_left, notice_of
 from service.jobs.tables import ERASURES, IMAGES, JOBS, TOMBSTONES
 
 LOG: Final = logging.getLogger(__name__)
@@ -196,7 +196,6 @@ class Sweeper:
         database: sa.Engine,
         client: DBOSClient,
         blobs: BlobStore,
-        notices: Notices,
         *,
         interval_s: float,
     ) -> None:
@@ -204,7 +203,6 @@ class Sweeper:
         self._client = client
         self._blobs = blobs
         self._interval_s = interval_s
-        self._notices = notices
         self._clock = ClockGuard()
         self._unknown_at = time.monotonic()
         self._stopped = threading.Event()
@@ -221,7 +219,7 @@ class Sweeper:
 
     def sweep(self) -> int:
         """Expire and erase what is due; returns how many scopes were erased."""
-        self._notices.enqueue_left()
+        enqueue_left(self._client)
         now = self._clock.settled_time()
         if now is not None:
             self._expire(now)

@@ -12,6 +12,7 @@ import threading
 import time
 import uuid
 from collections.abc import Callable
+from functools import partial
 from typing import Final
 
 import sqlalchemy as sa
@@ -36,7 +37,7 @@ from service.jobs.executions import (
     queue_of,
 )
 from service.jobs.heartbeat import Heartbeat
-from service.jobs.notices import Notices
+from service.jobs.notices import enqueue_notice
 from service.jobs.records import Ending
 from service.jobs.rows import Endings
 from service.jobs.slots import WorkerSlots
@@ -81,7 +82,7 @@ class WorkerEngine:
         self._slots = WorkerSlots(processes, poll_s=QUEUE_POLL_S)
         client = client_of(database)
         self._executions = Executions(client)
-        endings = Endings(retention_s=retention_s, notify=Notices(client).enqueue)
+        endings = Endings(retention_s=retention_s, notify=partial(enqueue_notice, client))
         self._claims = Claims(database, executor_id=self.executor_id, endings=endings)
         self._attempts = AttemptLog(
             database,

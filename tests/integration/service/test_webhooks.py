@@ -13,7 +13,7 @@ import pytest
 from api_schemas.jobs import Fit, WebhookEvent
 from service.jobs.database import open_database, prepare_database
 from service.jobs.executions import client_of
-from service.jobs.notices import AT_ONCE, NoticeRunner, Notices
+from service.jobs.notices import AT_ONCE, enqueue_notice, start_notices, stop_notices
 from service.jobs.records import JobRecord
 from service.jobs.rows import find_job
 from tests.integration.service.fake_pipeline import scripted_image
@@ -122,7 +122,7 @@ def test_a_receiver_that_does_not_answer_delays_nobody_elses_notice(tmp_path: Pa
     url = f"sqlite:///{tmp_path / 'maquette.sqlite'}"
     prepare_database(url)
     database = open_database(url)
-    notices = Notices(client_of(database))
+    client = client_of(database)
     under_way = Counter[str]()
     is_told = threading.Event()
 
@@ -138,10 +138,9 @@ def test_a_receiver_that_does_not_answer_delays_nobody_elses_notice(tmp_path: Pa
             insert_job(connection, name, tenant=tenant, webhook_target="0" * 64)
             job = find_job(connection, name)
             assert job is not None
-            notices.enqueue(connection, job)
+            enqueue_notice(client, connection, job)
 
-    runner = NoticeRunner(database, send)
-    runner.start()
+    start_notices(database, send)
     try:
         for number in range(3 * AT_ONCE):
             end(f"dead-{number}", "dead")
@@ -150,7 +149,7 @@ def test_a_receiver_that_does_not_answer_delays_nobody_elses_notice(tmp_path: Pa
         assert is_told.wait(PATIENCE_S)
         assert under_way["dead"] == AT_ONCE
     finally:
-        runner.stop()
+        stop_notices()
         database.dispose()
 
 

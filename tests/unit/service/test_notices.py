@@ -21,7 +21,7 @@ from pydantic import ValidationError
 
 from api_schemas.jobs import WebhookTarget
 from service.jobs import notices
-from service.jobs.notices import NotAcceptedError, Sender, signed_headers
+from service.jobs.notices import NotAcceptedError, post, signed_headers
 
 NAME = "hooks.example"
 PATIENCE_S = 600.0
@@ -89,11 +89,6 @@ def self_signed(name: str) -> tuple[bytes, bytes]:
     )
 
 
-def sender(*allowed_hosts: str, tls: ssl.SSLContext | None = None) -> Sender:
-    """Of what is not needed here it has nothing."""
-    return Sender(None, None, secret=None, allowed_hosts=allowed_hosts, tls=tls)  # pyright: ignore
-
-
 def posted(server: Server, name: str, monkeypatch) -> int:
     """Post to a name that stands for the loopback the first time it is looked up, and only then."""
     trusting = ssl.create_default_context(cadata=server.certificate.decode())
@@ -105,12 +100,12 @@ def posted(server: Server, name: str, monkeypatch) -> int:
         address = "127.0.0.1" if (host, server.lookups) == (name, 1) else "192.0.2.1"
         return [(2, 1, 6, "", (address, port))]
 
-    async def post() -> int:
+    async def looking() -> int:
         monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", lookup)
         url = f"https://{name}:{server.port}/hook"
-        return await sender(name, tls=trusting).post(url, headers={}, body=b"{}")
+        return await post(url, {}, b"{}", allowed_hosts=[name], tls=trusting)
 
-    return asyncio.run(post())
+    return asyncio.run(looking())
 
 
 def test_the_name_is_looked_up_once_and_its_certificate_checked(server, monkeypatch):
@@ -141,12 +136,12 @@ async def silent(host: str, port: int, **_: object) -> list[object]:
 def test_a_name_that_leads_nowhere_is_not_posted_to(lookup, monkeypatch):
     monkeypatch.setattr(notices, "ATTEMPT_WITHIN_S", 0.3)
 
-    async def post() -> int:
+    async def looking() -> int:
         monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", lookup)
-        return await sender().post("https://db.internal/hook", headers={}, body=b"{}")
+        return await post("https://db.internal/hook", {}, b"{}", allowed_hosts=())
 
     with pytest.raises(NotAcceptedError) as raised:
-        asyncio.run(post())
+        asyncio.run(looking())
     assert "db.internal" not in str(raised.value)
 
 

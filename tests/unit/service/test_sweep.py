@@ -10,7 +10,6 @@ import sqlalchemy as sa
 from service.jobs.blobs_local import LocalBlobStore
 from service.jobs.database import open_database, prepare_database
 from service.jobs.executions import client_of
-from service.jobs.notices import Notices
 from service.jobs.sweep import (
     SETTLING_S,
     UNKNOWN_KEPT_S,
@@ -71,7 +70,7 @@ def test_folders_that_no_record_names_are_erased_after_a_day(database: sa.Engine
 
     def swept() -> int:
         client = client_of(database)
-        return Sweeper(database, client, blobs, Notices(client), interval_s=1.0).sweep()
+        return Sweeper(database, client, blobs, interval_s=1.0).sweep()
 
     assert swept() == 0
     assert left in set(blobs.scopes())
