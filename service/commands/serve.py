@@ -114,17 +114,7 @@ def serve(
     prepare_database(url)
     take_storage(url, blobs, named=setting_of_storage(settings))
     database = open_database(url)
-    engine = JobEngine(
-        database,
-        blobs,
-        max_queued=settings.max_queued,
-        max_queued_per_tenant=settings.tenant_queue_limit,
-        image_quota=settings.max_image_bytes_per_tenant,
-        retention_s=settings.retention_s,
-        sweep_interval_s=settings.sweep_interval_s,
-        heartbeat_s=settings.heartbeat_s,
-        dead_after_s=settings.dead_after_s,
-    )
+    engine = JobEngine(database, blobs, settings)
     send = partial(send_notice, blobs=blobs, represent=represent, settings=settings)
     draining = threading.Event()
     app = create_app(

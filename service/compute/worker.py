@@ -19,7 +19,7 @@ from service.compute.models import check_detector, check_models, read_models
 from service.compute.tasks import child_setup
 from service.jobs.blobs import open_blob_store, setting_of_storage
 from service.process.confinement import warn_of_weakness
-from service.process.data_folder import open_disk, prepare_data_folder
+from service.process.data_folder import prepare_data_folder
 from service.process.supervisor import SAFE_PATH_VARIABLE
 from service.settings import Settings
 
@@ -89,12 +89,7 @@ def run_worker(
             connections=settings.worker_processes + SPARE_CONNECTIONS,
         ),
         blobs,
-        processes=settings.worker_processes,
-        max_crashes=settings.max_crashes,
-        heartbeat_s=settings.heartbeat_s,
-        dead_after_s=settings.dead_after_s,
-        retention_s=settings.retention_s,
-        disk=open_disk(settings),
+        settings,
         is_able=server.is_able,
     )
     engine.start(runner.run, body_models=read_models(settings))

@@ -4,14 +4,14 @@ Every write names the attempt it belongs to. A worker that was taken for dead an
 finds that its attempt is no longer the current one, and none of its writes have any effect.
 """
 
-import json
 import logging
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Final
 
 import sqlalchemy as sa
+from pydantic import TypeAdapter
 
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
@@ -235,39 +235,18 @@ class AttemptLog:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Computed:
+class Computed(AttemptResult):
     """A result that has yet to be published: of which attempt, and where its files lie."""
 
     attempt: int
     scope: str
-    result: AttemptResult
 
 
-def computed_to_json(job: JobRecord, result: AttemptResult) -> str:
+COMPUTED: Final = TypeAdapter(Computed)
+"""The form of a checkpoint; see :data:`service.jobs.executions.EXECUTION_VERSION`."""
+
+
+def checkpoint(job: JobRecord, result: AttemptResult) -> str:
     """Write the result of a job's attempt in the form kept in the checkpoint."""
-    return json.dumps(
-        {
-            "attempt": job.attempt,
-            "scope": job.scope,
-            "ending": result.ending.value,
-            "files": FILES.dump_python(result.files, mode="json"),
-            "problem": result.problem.model_dump(mode="json") if result.problem else None,
-            "stage_seconds": dict(result.stage_seconds),
-        }
-    )
-
-
-def computed_from_json(text: str) -> Computed:
-    """Read a checkpoint."""
-    values = json.loads(text)
-    told = values["problem"]
-    return Computed(
-        attempt=values["attempt"],
-        scope=values["scope"],
-        result=AttemptResult(
-            ending=Ending(values["ending"]),
-            files=FILES.validate_json(json.dumps(values["files"])),
-            problem=None if told is None else Problem.model_validate_json(json.dumps(told)),
-            stage_seconds=values["stage_seconds"],
-        ),
-    )
+    told = {each.name: getattr(result, each.name) for each in fields(AttemptResult)}
+    return COMPUTED.dump_json(Computed(attempt=job.attempt, scope=job.scope, **told)).decode()

@@ -36,6 +36,7 @@ from service.jobs.rows import Endings, job_record, job_where, read_durations, re
 from service.jobs.submit import Submissions
 from service.jobs.sweep import Sweeper, forget_fits, forget_pages, forget_workflows
 from service.jobs.tables import EVENTS, JOBS, TOMBSTONES, WORKERS
+from service.settings import Settings
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -213,27 +214,16 @@ class JobEngine:
         self,
         database: sa.Engine,
         blobs: BlobStore,
-        *,
-        max_queued: int,
-        max_queued_per_tenant: int,
-        image_quota: int,
-        retention_s: float,
-        sweep_interval_s: float,
-        heartbeat_s: float,
-        dead_after_s: float,
+        settings: Settings,
     ) -> None:
         self._database = database
-        self._max_queued = max_queued
-        self._max_queued_per_tenant = max_queued_per_tenant
-        self._image_quota = image_quota
-        self._retention_s = retention_s
-        self._heartbeat_s = heartbeat_s
+        self._settings = settings
         self._client = client_of(database)
-        self._endings = Endings(
-            retention_s=retention_s, notify=partial(enqueue_notice, self._client)
-        )
-        self._watch = WorkerWatch(dead_after_s=dead_after_s)
-        self._sweeper = Sweeper(database, self._client, blobs, interval_s=sweep_interval_s)
+        notify = partial(enqueue_notice, self._client)
+        self._endings = Endings(retention_s=settings.retention_s, notify=notify)
+        self._watch = WorkerWatch(dead_after_s=settings.dead_after_s)
+        interval_s = settings.sweep_interval_s
+        self._sweeper = Sweeper(database, self._client, blobs, interval_s=interval_s)
         self._stopped = threading.Event()
         self._watching = threading.Thread(target=self._watch_workers, name="watch", daemon=True)
 
@@ -253,12 +243,7 @@ class JobEngine:
 
     def of(self, tenant: str) -> TenantJobs:
         """Return the fits of a tenant."""
-        submissions = Submissions(
-            tenant,
-            database=self._database,
-            max_queued=self._max_queued,
-            max_queued_per_tenant=self._max_queued_per_tenant,
-        )
+        submissions = Submissions(tenant, self._database, self._settings)
         return TenantJobs(
             tenant,
             database=self._database,
@@ -269,12 +254,7 @@ class JobEngine:
 
     def images_of(self, tenant: str) -> TenantImages:
         """Return the uploaded pictures of a tenant."""
-        return TenantImages(
-            tenant,
-            database=self._database,
-            retention_s=self._retention_s,
-            quota=self._image_quota,
-        )
+        return TenantImages(tenant, self._database, self._settings)
 
     @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
@@ -338,7 +318,7 @@ class JobEngine:
             touch_fact(connection, BODY_MODELS_FACT)
 
     def _watch_workers(self) -> None:
-        while not self._stopped.wait(self._heartbeat_s):
+        while not self._stopped.wait(self._settings.heartbeat_s):
             try:
                 self.workers()
             except EngineUnavailableError:

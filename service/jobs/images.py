@@ -17,6 +17,7 @@ from sqlalchemy.exc import IntegrityError
 from service.jobs.database import available
 from service.jobs.sweep import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.jobs.tables import IMAGES
+from service.settings import Settings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,18 +62,11 @@ class TenantImages:
     Every method may raise :class:`service.jobs.records.EngineUnavailableError`.
     """
 
-    def __init__(
-        self,
-        tenant: str,
-        *,
-        database: sa.Engine,
-        retention_s: float,
-        quota: int,
-    ) -> None:
+    def __init__(self, tenant: str, database: sa.Engine, settings: Settings) -> None:
         self._tenant = tenant
         self._database = database
-        self._retention_s = retention_s
-        self._quota = quota
+        self._retention_s = settings.retention_s
+        self._quota = settings.max_image_bytes_per_tenant
 
     @available
     def find(self, image_id: str) -> ImageRecord | None:

@@ -29,6 +29,7 @@ from service.jobs.records import Idempotency, JobRecord, NewJob, Submission, Sub
 from service.jobs.rows import INPUTS, append_event, job_record, job_where
 from service.jobs.sweep import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.jobs.tables import JOBS
+from service.settings import Settings
 
 _WAITING: Final = JOBS.c.state == JobState.QUEUED.value
 _RUNNING: Final = JOBS.c.state == JobState.RUNNING.value
@@ -43,13 +44,10 @@ class Submissions:
     Both limits count pictures: of everybody's waiting jobs, and of the tenant's.
     """
 
-    def __init__(
-        self, tenant: str, *, database: sa.Engine, max_queued: int, max_queued_per_tenant: int
-    ) -> None:
+    def __init__(self, tenant: str, database: sa.Engine, settings: Settings) -> None:
         self._tenant = tenant
         self._database = database
-        self._max_queued = max_queued
-        self._max_queued_per_tenant = max_queued_per_tenant
+        self._settings = settings
 
     @available
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
@@ -157,9 +155,9 @@ class Submissions:
         row = connection.execute(
             sa.select(pictures.label("everyone"), ours.label("ours")).where(_WAITING)
         ).one()
-        if (row.everyone or 0) >= self._max_queued:
+        if (row.everyone or 0) >= self._settings.max_queued:
             return SubmitOutcome.QUEUE_FULL
-        if (row.ours or 0) >= self._max_queued_per_tenant:
+        if (row.ours or 0) >= self._settings.tenant_queue_limit:
             return SubmitOutcome.TENANT_FULL
         return None
 

@@ -20,10 +20,10 @@ from dbos import DBOS, SetWorkflowID, error
 
 from api_schemas.service import BodyModels
 from service.jobs.attempts import (
+    COMPUTED,
     AttemptHandler,
     AttemptLog,
-    computed_from_json,
-    computed_to_json,
+    checkpoint,
 )
 from service.jobs.blobs import BlobStore, BlobsUnavailableError
 from service.jobs.claims import Claims
@@ -41,8 +41,9 @@ from service.jobs.notices import enqueue_notice
 from service.jobs.records import Ending
 from service.jobs.rows import Endings
 from service.jobs.slots import WorkerSlots
-from service.process.data_folder import Disk
+from service.process.data_folder import open_disk
 from service.process.logs import fields, log_context
+from service.settings import Settings
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -63,39 +64,35 @@ class WorkerEngine:
         self,
         database: sa.Engine,
         blobs: BlobStore,
+        settings: Settings,
         *,
-        processes: int,
-        max_crashes: int,
-        heartbeat_s: float,
-        dead_after_s: float,
-        retention_s: float,
-        disk: Disk,
         is_able: Callable[[], bool],
     ) -> None:
         # Never reused: two live workers with the same name would rerun each other's jobs.
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
         self._database = database
         self._blobs = blobs
-        self._disk = disk
+        self._disk = open_disk(settings)
         self._is_able = is_able
         self._is_holding_back = False
-        self._slots = WorkerSlots(processes, poll_s=QUEUE_POLL_S)
+        self._slots = WorkerSlots(settings.worker_processes, poll_s=QUEUE_POLL_S)
         client = client_of(database)
         self._executions = Executions(client)
-        endings = Endings(retention_s=retention_s, notify=partial(enqueue_notice, client))
+        notify = partial(enqueue_notice, client)
+        endings = Endings(retention_s=settings.retention_s, notify=notify)
         self._claims = Claims(database, executor_id=self.executor_id, endings=endings)
         self._attempts = AttemptLog(
             database,
             executor_id=self.executor_id,
-            max_crashes=max_crashes,
+            max_crashes=settings.max_crashes,
             endings=endings,
             leave_slot=self._slots.leave,
         )
         self._heartbeat = Heartbeat(
             database,
             executor_id=self.executor_id,
-            interval_s=heartbeat_s,
-            dead_after_s=dead_after_s,
+            interval_s=settings.heartbeat_s,
+            dead_after_s=settings.dead_after_s,
             executions=self._executions,
             claims=self._claims,
             slots=self._slots,
@@ -225,14 +222,14 @@ class WorkerEngine:
             if result.ending is Ending.SUPERSEDED:
                 break
             if result.ending is not Ending.CRASHED:
-                return computed_to_json(attempt.job, result)
+                return checkpoint(attempt.job, result)
             self._attempts.count_crash(attempt)
         self._erase_if_forgotten(scope)
         return None
 
     def _publish(self, job_id: str, text: str) -> None:
-        computed = computed_from_json(text)
-        if self._attempts.end(job_id, computed.attempt, computed.result) is None:
+        computed = COMPUTED.validate_json(text)
+        if self._attempts.end(job_id, computed.attempt, computed) is None:
             self._erase_if_forgotten(computed.scope)
 
     def _erase_if_forgotten(self, scope: str) -> None:

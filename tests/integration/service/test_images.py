@@ -11,6 +11,7 @@ from service.jobs.database import open_database, prepare_database
 from service.jobs.engine import JobEngine
 from service.jobs.images import NewImage
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
+from service.settings import Settings
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REQUEST,
@@ -213,13 +214,7 @@ def engine_of(machine: Machine) -> JobEngine:
     return JobEngine(
         open_database(url),
         blobs=None,  # pyright: ignore[reportArgumentType]
-        max_queued=10,
-        max_queued_per_tenant=10,
-        image_quota=10_000,
-        retention_s=100.0,
-        sweep_interval_s=60.0,
-        heartbeat_s=1.0,
-        dead_after_s=10.0,
+        settings=Settings(max_image_bytes_per_tenant=10_000),
     )
 
 

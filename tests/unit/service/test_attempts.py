@@ -1,4 +1,5 @@
 import time
+from dataclasses import fields
 
 import pytest
 import sqlalchemy as sa
@@ -6,7 +7,7 @@ import sqlalchemy as sa
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import problem
 from api_schemas.results import ResultFile
-from service.jobs.attempts import AttemptLog, Computed, computed_from_json, computed_to_json
+from service.jobs.attempts import COMPUTED, AttemptLog, checkpoint
 from service.jobs.database import open_database
 from service.jobs.records import (
     ACTIVE,
@@ -203,5 +204,7 @@ def test_an_erased_job_supersedes_its_attempt(database):
 )
 def test_a_checkpoint_gives_back_what_it_was_made_from(database, result):
     begun = log(database).begin(JOB)
-    stored = computed_from_json(computed_to_json(begun.job, result))
-    assert stored == Computed(attempt=1, scope=JOB, result=result)
+    stored = COMPUTED.validate_json(checkpoint(begun.job, result))
+    assert (stored.attempt, stored.scope) == (1, JOB)
+    kept = {each.name: getattr(stored, each.name) for each in fields(AttemptResult)}
+    assert AttemptResult(**kept) == result
