@@ -33,7 +33,7 @@ from tests.integration.service.harness import (
 pytestmark = pytest.mark.slow
 
 CONFIG = Path(__file__).with_name("schemathesis.toml")
-FEWEST_CASES = 2_000
+FEWEST_CASES = 1_200
 EXAMPLES = os.environ.get("CONTRACT_EXAMPLES", "2")
 """Random cases of each operation, and of ways from one to the next."""
 
