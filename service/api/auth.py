@@ -6,16 +6,11 @@ its own name to 127.0.0.1 (its pages could then read answers), and a form that p
 pages could submit, though not read). The first shows in the Host header, the second in Origin.
 """
 
-import asyncio
-import logging
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Final
 from urllib.parse import SplitResult, urlsplit
 
-from anyio import CapacityLimiter, to_thread
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -25,8 +20,6 @@ from service.api.problems import ProblemError, problem_error, problem_response
 from service.jobs.keys import ApiKey, KeyRing, Role, hash_key
 from service.jobs.records import EngineUnavailableError
 from service.settings import is_loopback
-
-LOG: Final = logging.getLogger(__name__)
 
 SOLE_TENANT: Final = "default"
 """The tenant of all jobs if no keys are required."""
@@ -45,9 +38,6 @@ REFRESH_S: Final = 5.0
 
 RETRY_UNKNOWN_S: Final = 0.5
 """Unknown keys cause at most one query per this time, all of them together."""
-
-BETWEEN_NOTES_S: Final = 60.0
-"""The error of a key's last use: a use within this time after another is not written."""
 
 KEY_REMEDY: Final = (
     "Send the header 'Authorization: Bearer' with a key; whoever runs the service makes one with: "
@@ -97,44 +87,12 @@ class KnownKeys:
         self._read_at = time.monotonic()
 
 
-class KeyUses:
-    """Notes the use of keys, at most once a minute each; for use from a single event loop."""
-
-    def __init__(self, store: KeyRing, *, monotonic: Callable[[], float] = time.monotonic) -> None:
-        self._store = store
-        self._monotonic = monotonic
-        self._noted_at: dict[str, float] = {}
-        self._writing: set[asyncio.Task[None]] = set()
-        self._limiter = CapacityLimiter(1)
-
-    def note(self, identity: str) -> None:
-        """Have it written that a key is used now, if that is due; no request waits for it."""
-        now = self._monotonic()
-        if now - self._noted_at.get(identity, -BETWEEN_NOTES_S) < BETWEEN_NOTES_S:
-            return
-        self._noted_at[identity] = now
-        task = asyncio.create_task(self._write(identity, time.time()))
-        self._writing.add(task)
-        task.add_done_callback(self._writing.discard)
-
-    async def _write(self, identity: str, at: float) -> None:
-        """Write one use; where the database is away, the next one that is due is written."""
-        note = partial(self._store.note_use, identity, at=at, unless_since=at - BETWEEN_NOTES_S)
-        try:
-            await to_thread.run_sync(note, limiter=self._limiter)
-        except EngineUnavailableError:
-            LOG.debug("The use of key %s could not be noted.", identity)
-        except Exception:
-            LOG.exception("The use of key %s could not be noted.", identity)
-
-
 class Authentication:
     """ASGI middleware: sets ``request.state.caller``, or answers 401, 403 or 429."""
 
     def __init__(self, app: ASGIApp, *, keys: KeyRing, rate_limit: RateLimit) -> None:
         self._app = app
         self._keys = KnownKeys(keys)
-        self._uses = KeyUses(keys)
         self._rate_limit = rate_limit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -171,7 +129,6 @@ class Authentication:
                 remedy="Use a key made for this purpose.",
                 field="Authorization",
             )
-        self._uses.note(key.id)
         retry_after_s = self._rate_limit.take(key.id)
         if retry_after_s:
             raise _too_many(retry_after_s)

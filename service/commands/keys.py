@@ -53,11 +53,10 @@ def _create(ring: KeyRing, parsed: argparse.Namespace) -> int:
 
 
 def _list(ring: KeyRing, _: argparse.Namespace) -> int:
-    """Print every key's id, tenant, role, dates and last use."""
+    """Print every key's id, tenant, role and dates."""
     for key in ring.all_keys():
-        used = "no use known" if key.used_at is None else f"used {_minute(key.used_at)}"
         revoked = "" if key.revoked_at is None else f" revoked {_day(key.revoked_at)}"
-        print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)} {used}{revoked}")
+        print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)}{revoked}")
     return 0
 
 
@@ -73,10 +72,6 @@ def _opened(settings: Settings) -> KeyRing:
     # It must be possible to revoke a key on a full disk too.
     prepare_database(settings.system_database_url)
     return KeyRing(open_database(settings.system_database_url, connections=1))
-
-
-def _minute(seconds: float) -> str:
-    return datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%MZ")
 
 
 def _day(seconds: float) -> str:

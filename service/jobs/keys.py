@@ -14,10 +14,8 @@ from enum import StrEnum
 from typing import Any, Final
 
 import sqlalchemy as sa
-from sqlalchemy.exc import InternalError
 
 from service.jobs.database import available
-from service.jobs.records import EngineUnavailableError
 from service.jobs.tables import API_KEYS
 
 MARK: Final = "mq"
@@ -33,7 +31,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiKey:
-    """A stored key; times are seconds since the epoch, ``used_at`` to the minute."""
+    """A stored key; times are seconds since the epoch."""
 
     id: str
     tenant: str
@@ -41,7 +39,6 @@ class ApiKey:
     secret_hash: str
     created_at: float
     revoked_at: float | None
-    used_at: float | None
 
 
 class KeyRing:
@@ -96,22 +93,6 @@ class KeyRing:
         with self._database.connect() as connection:
             rows = connection.execute(query).mappings().all()
         return [_api_key(row) for row in rows]
-
-    @available
-    def note_use(self, identity: str, *, at: float, unless_since: float) -> None:
-        """Keep that a key was used, unless a use since ``unless_since`` is known.
-
-        Several processes note the uses of one key.
-        """
-        used_at = API_KEYS.c.used_at
-        is_due = sa.or_(used_at.is_(None), used_at < unless_since)
-        noted = sa.update(API_KEYS).where(API_KEYS.c.id == identity, is_due).values(used_at=at)
-        try:
-            with self._database.begin() as connection:
-                connection.execute(noted)
-        except InternalError as error:
-            # How Postgres refuses writes when it is read-only, as a standby is.
-            raise EngineUnavailableError from error
 
 
 def hash_key(key: str) -> str:

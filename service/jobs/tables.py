@@ -116,9 +116,7 @@ API_KEYS = sa.Table(
     sa.Column("secret_hash", sa.String(64), nullable=False, unique=True),
     sa.Column("created_at", sa.Double, nullable=False),
     sa.Column("revoked_at", sa.Double),
-    sa.Column("used_at", sa.Double),
 )
-"""``used_at`` is when a key was last used, to the minute."""
 
 OUTCOMES = sa.Table(
     "maquette_outcomes",
