@@ -152,7 +152,7 @@ def chosen_rendition(
     """
     there_are = dict(renditions(files))
     if name not in there_are:
-        raise _unknown(name, there_are, state)
+        raise _unknown(name, files, state)
     if PurePosixPath(name).name == IMAGE:
         return picture_rendition(files[name], accept=accept)
     return there_are[name]
@@ -189,26 +189,12 @@ def renditions(files: Mapping[str, StoredBlob]) -> Iterator[tuple[str, Rendition
         yield TABLE, Rendition(media_type=CSV, tag=f"{document.digest}-csv", source=document)
 
 
-def _unknown(name: str, there_are: Mapping[str, Rendition], state: JobState) -> ProblemError:
-    there_is = f"Ask for {_named(there_are)}." if there_are else "Nothing is there to be asked for."
+def _unknown(name: str, files: Mapping[str, StoredBlob], state: JobState) -> ProblemError:
+    there_is = f"Ask for {', '.join(files)}." if files else "Nothing is there to be asked for."
     if state is not JobState.SUCCEEDED:
         there_is += f" The state is {state}; only what has succeeded has files of a result."
     return problem_error(
         slug="not-found", detail=f"There is no file '{shortened(name)}' here.", remedy=there_is
-    )
-
-
-def _named(there_are: Mapping[str, Rendition]) -> str:
-    """All names, with the endings of a mesh combined: ``body_canonical (.glb, .obj, .stl)``."""
-    said: dict[str, list[str]] = {}
-    for name, each in there_are.items():
-        path = PurePosixPath(name)
-        is_mesh = each.source.media_type == GLB
-        said.setdefault(str(path.with_suffix("")) if is_mesh else name, []).extend(
-            [path.suffix] if is_mesh else []
-        )
-    return ", ".join(
-        f"{stem} ({', '.join(endings)})" if endings else stem for stem, endings in said.items()
     )
 
 

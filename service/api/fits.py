@@ -108,14 +108,10 @@ def list_fits(
     "/{fit_id}",
     response_model=Fit,
     summary="Look at a fit",
-    responses=NOT_MODIFIED | documented(*FIT_PROBLEMS),
+    responses=documented(*FIT_PROBLEMS),
 )
-def get_fit(record: Found, response: Response, if_none_match: IfNoneMatch = None) -> Fit | Response:
+def get_fit(record: Found, response: Response) -> Fit:
     """Return where the fit stands."""
-    tag = _tag(record)
-    if if_none_match is not None and tag in if_none_match:
-        return Response(status_code=304, headers={"ETag": tag})
-    response.headers["ETag"] = tag
     if record.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     return represent(record)
@@ -241,12 +237,6 @@ def no_result(record: JobRecord) -> Problem:
         detail=f"The fit is {record.state}.",
         remedy="Send it again." if canceled else "Wait until it has succeeded; follow its events.",
     )
-
-
-def _tag(record: JobRecord) -> str:
-    """An entity tag that changes with everything that is shown of the fit."""
-    parts = [record.last_event, int(record.cancel_requested)]
-    return f'W/"{"-".join(map(str, parts))}"'
 
 
 def fit_path(fit_id: str) -> str:

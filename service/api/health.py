@@ -19,7 +19,7 @@ from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from api_schemas.service import Health
 from service.api.context import Context, Parts
 from service.api.problems import ProblemError, problem_error
-from service.jobs.blobs import BlobsUnavailableError, StorageFullError, WatchedBlobs
+from service.jobs.blobs import WatchedBlobs
 from service.jobs.engine import JobEngine
 from service.jobs.records import WorkerStatus
 from service.process.data_folder import Disk
@@ -120,6 +120,8 @@ class Readiness:
             If a part is missing, or does not answer.
         EngineUnavailableError
             If the database is not available.
+        BlobsUnavailableError
+            If the storage is not available.
         """
         look = self._current()
         left_s = self._answer_within_s - (self._monotonic() - look.began)
@@ -176,7 +178,7 @@ def checks(engine: JobEngine, blobs: WatchedBlobs, disk: Disk) -> Callable[[Look
             raise not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
         engine.check_writable()
         look.at = "storage"
-        _check_storage(blobs)
+        blobs.check_writable()
         look.at = "database"
         workers = engine.workers()
         able = sum(worker.is_ready for worker in workers)
@@ -191,17 +193,6 @@ def _why_none(workers: Sequence[WorkerStatus]) -> str:
     if not any(worker.alive for worker in workers):
         return "No worker is alive."
     return "No worker can begin a job: it is still loading, or its log says what is wrong."
-
-
-def _check_storage(blobs: WatchedBlobs) -> None:
-    try:
-        blobs.check_writable()
-    except StorageFullError as error:
-        raise not_ready(code="disk-full", detail="The storage is full.") from error
-    except BlobsUnavailableError as error:
-        raise not_ready(
-            code="storage-unavailable", detail="The storage cannot be written."
-        ) from error
 
 
 def not_ready(*, code: str, detail: str) -> ProblemError:

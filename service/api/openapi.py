@@ -113,13 +113,13 @@ def recorded_examples() -> Mapping[str, Any]:
     return json.loads((files("service.api") / "examples.json").read_bytes())
 
 
-def _notice(name: str, event: type[BaseModel], summary: str) -> dict[str, Any]:
-    """Describe the notice of the end of a job."""
-    example = recorded_examples()["notices"][name]
-    content = {JSON: json_content(event) | {"examples": {"succeeded": {"value": example}}}}
+def _notice() -> dict[str, Any]:
+    """Describe the notice of the end of a fit."""
+    example = recorded_examples()["notices"]["fit-ended"]
+    content = {JSON: json_content(WebhookEvent) | {"examples": {"succeeded": {"value": example}}}}
     return {
         "post": {
-            "summary": summary,
+            "summary": "A fit has ended",
             "description": (
                 "Sent where the request's `webhook` says, signed as Standard Webhooks has it: "
                 "`webhook-signature` is `v1,` and the base64 HMAC-SHA256 of "
@@ -127,21 +127,7 @@ def _notice(name: str, event: type[BaseModel], summary: str) -> dict[str, Any]:
                 "until it is accepted, always with the same id and body: whoever receives it may "
                 "get it more than once."
             ),
-            "operationId": name.replace("-", "_"),
-            "parameters": [
-                {
-                    "name": name,
-                    "in": "header",
-                    "required": True,
-                    "description": description,
-                    "schema": {"type": "string"},
-                }
-                for name, description in (
-                    ("webhook-id", "The job's id."),
-                    ("webhook-timestamp", "When this attempt was made, in epoch seconds."),
-                    ("webhook-signature", "Signatures, separated by spaces."),
-                )
-            ],
+            "operationId": "fit_ended",
             "requestBody": {"required": True, "content": content},
             "responses": {
                 "2XX": {"description": "Accepted."},
@@ -192,7 +178,7 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     for path in document["paths"].values():
         for operation in path.values():
             _complete_operation(operation)
-    document["webhooks"] = {"fit-ended": _notice("fit-ended", WebhookEvent, "A fit has ended")}
+    document["webhooks"] = {"fit-ended": _notice()}
     document["x-limits"] = _LIMITS
     _tell_defaults(schemas)
     _drop_titles(schemas)

@@ -115,7 +115,7 @@ def install_problem_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(EngineUnavailableError, _on_unavailable)
-    app.add_exception_handler(BlobsUnavailableError, _on_no_storage)
+    app.add_exception_handler(BlobsUnavailableError, _on_unavailable)
     app.add_exception_handler(JobExpiredError, _on_expired)
 
 
@@ -151,46 +151,30 @@ def _on_http(request: Request, error: Exception) -> Response:
 
 
 def _on_unavailable(request: Request, error: Exception) -> Response:
-    full = isinstance(error, EngineFullError)
+    what = "database" if isinstance(error, EngineUnavailableError) else "storage"
+    is_full = isinstance(error, EngineFullError | StorageFullError)
     # A line, not a trace: in an outage every request comes through here.
     LOG.error(
-        "%s %s: the database is %s (%s).",
+        "%s %s: the %s is %s (%s).",
         request.method,
         request.url.path,
-        "full" if full else "away",
+        what,
+        "full" if is_full else "away",
         _drivers_words(error),
     )
     reason = problem(
         "not-ready",
-        code="disk-full" if full else "database-unavailable",
-        detail="The disk of the database is full."
-        if full
-        else "The database of jobs is not available.",
+        code="disk-full" if is_full else f"{what}-unavailable",
+        detail=f"The {what} is {'full' if is_full else 'not available'}.",
         remedy="Try again after the time in Retry-After; nothing was changed.",
     )
     return problem_response(request, reason)
 
 
 def _drivers_words(error: Exception) -> str:
-    """The words of the database's driver, in one line and without the statement."""
+    """The words of the driver, in one line and without the statement."""
     cause = error.__cause__ or error
     return " ".join(str(getattr(cause, "orig", cause)).split())
-
-
-def _on_no_storage(request: Request, error: Exception) -> Response:
-    full = isinstance(error, StorageFullError)
-    LOG.error(
-        "%s %s: the storage is %s.", request.method, request.url.path, "full" if full else "away"
-    )
-    reason = problem(
-        "not-ready",
-        code="disk-full" if full else "storage-unavailable",
-        detail="There is no room to store the picture."
-        if full
-        else "The storage of pictures and results is not available.",
-        remedy="Try again after the time in Retry-After; nothing was kept.",
-    )
-    return problem_response(request, reason)
 
 
 def _on_expired(request: Request, error: Exception) -> Response:

@@ -268,26 +268,17 @@ async def _content(part: UploadFile | str) -> bytes:
 
 
 async def check_form(request: Request) -> None:
-    """Refuse unknown and repeated query parameters, and bodies that are compressed.
-
-    The parameters of an operation are read from the OpenAPI document, if there are any to check.
+    """Refuse query parameters that the OpenAPI document does not name, and repeated ones.
 
     Raises
     ------
     ProblemError
         With each parameter by its name.
     """
-    if not request.url.path.startswith(PREFIX):
+    if not (request.url.query and request.url.path.startswith(PREFIX)):
         return
-    if request.url.query:
-        _check_parameters(request)
-    coding = request.headers.get("content-encoding", "identity").strip().lower()
-    if coding not in ("", "identity") and "requestBody" in _operation(request):
-        raise _encoded(coding)
-
-
-def _check_parameters(request: Request) -> None:
-    declared = _operation(request).get("parameters", ())
+    path = request.app.openapi()["paths"].get(request.scope["route"].path, {})
+    declared = path.get(request.method.lower(), {}).get("parameters", ())
     known = [each["name"] for each in declared if each["in"] == "query"]
     counted = Counter(name for name, _ in request.query_params.multi_items())
     there = f"Parameters there are: {', '.join(known)}." if known else "This path has none."
@@ -305,20 +296,3 @@ def _check_parameters(request: Request) -> None:
     ]
     if faults:
         raise ProblemError(field_problem("invalid-request", *faults))
-
-
-def _encoded(coding: str) -> ProblemError:
-    return problem_error(
-        slug="unsupported-media-type",
-        code="encoded-body",
-        field="Content-Encoding",
-        detail=f"The body is said to be encoded ({shortened(coding)}); it is read as it comes.",
-        remedy="Send the body without Content-Encoding; pictures are compressed already.",
-        headers={"Accept-Encoding": "identity"},
-    )
-
-
-def _operation(request: Request) -> dict[str, Any]:
-    """The operation that was asked for, as the OpenAPI document describes it."""
-    path = request.app.openapi()["paths"].get(request.scope["route"].path, {})
-    return path.get(request.method.lower(), {})

@@ -122,14 +122,6 @@ def test_two_listeners_hear_the_same(service: Service):
     assert heard[0] == heard[1]
 
 
-def test_a_fit_is_not_sent_again_while_it_is_unchanged(service: Service):
-    path = service.submit()
-    service.ended(path)
-    tag = service.client.get(path).headers["ETag"]
-    assert service.client.get(path, headers={"If-None-Match": tag}).status_code == 304
-    assert service.client.get(path, headers={"If-None-Match": '"other"'}).status_code == 200
-
-
 def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(service: Service):
     path = service.submit()
     links = service.ended(path)["links"]

@@ -80,8 +80,8 @@ def test_a_name_says_the_format_whatever_is_accepted(service: Service, files, ac
 def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
     problem = checked(get(service, f"{files}/{name}"), 404)
     assert f"'{name}'" in problem.detail
-    assert "body_canonical (.glb, .obj, .ply, .stl)" in problem.remedy
-    for there in ("views/0/overlay.png", "person.npz", "measurements.csv", "result.json"):
+    assert "body_canonical.glb" in problem.remedy
+    for there in ("views/0/overlay.png", "person.npz", "result.json"):
         assert there in problem.remedy
 
 

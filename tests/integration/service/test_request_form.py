@@ -1,12 +1,10 @@
-"""What is refused whatever is asked for: unknown parameters, compressed and ambiguous bodies."""
+"""What is refused whatever is asked for: unknown parameters and ambiguous bodies."""
 
-import gzip
-import json
 from urllib.parse import urlsplit
 
 import pytest
 
-from tests.integration.service.harness import REQUEST, Service
+from tests.integration.service.harness import Service
 from tests.integration.service.limited_server import Caller
 from tests.integration.service.test_bad_input import checked
 
@@ -62,28 +60,6 @@ def test_however_many_unknown_parameters_there_are_the_answer_is_short(service: 
 @pytest.mark.parametrize("path", ["/", "/page/sample.jpg", "/healthz/live", "/openapi.json"])
 def test_what_a_browser_or_a_probe_adds_elsewhere_does_not_matter(service: Service, path):
     assert service.client.get(path, params={"embedded": "1"}).status_code == 200
-
-
-@pytest.mark.parametrize("coding", ["gzip", "br", "nonsense"])
-def test_a_compressed_body_is_said_to_be_one(service: Service, coding):
-    body = gzip.compress(json.dumps({"gender": "male"}).encode())
-    headers = {"Content-Type": "application/json", "Content-Encoding": coding}
-    answer = service.client.post("/v1/bodies", content=body, headers=headers)
-    problem = checked(answer, 415)
-    assert (problem.field, problem.code) == ("Content-Encoding", "encoded-body")
-    assert coding in problem.detail
-    assert answer.headers["Accept-Encoding"] == "identity"
-
-
-def test_a_compressed_form_is_said_to_be_one(service: Service):
-    headers = {"Content-Encoding": "gzip"}
-    assert checked(service.post(request=REQUEST, headers=headers), 415).code == "encoded-body"
-
-
-def test_a_body_said_to_be_as_it_is_is_read(service: Service):
-    headers = {"Content-Type": "application/json", "Content-Encoding": "identity"}
-    answer = service.client.post("/v1/bodies", content=b"no JSON", headers=headers)
-    assert checked(answer, 400).code == "invalid-json"
 
 
 def test_a_body_of_two_ends_is_refused_and_nothing_after_it_is_answered(service: Service):
