@@ -1,10 +1,10 @@
 """What DBOS records of executions: who runs what, and how it ended. Their ids are the jobs'."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping
 from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, WorkflowStatus
+from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
 
 APPLICATION: Final = "maquette"
 WORKFLOW: Final = "fit"
@@ -53,42 +53,21 @@ def queue_of(executor_id: str) -> str:
     return f"fits-{executor_id}"
 
 
-class Executions:
-    """Reads executions, and removes those that are over."""
+def holders(client: DBOSClient) -> Mapping[str, str]:
+    """By which executor, dead or alive, each job's execution is recorded as run."""
+    pending = client.list_workflows(
+        name=WORKFLOW, status="PENDING", load_input=False, load_output=False
+    )
+    return {each.workflow_id: each.executor_id for each in pending if each.executor_id is not None}
 
-    def __init__(self, client: DBOSClient) -> None:
-        self._client = client
 
-    def holders(self) -> Mapping[str, str]:
-        """By which executor, dead or alive, each job's execution is recorded as run."""
-        return {
-            each.workflow_id: each.executor_id
-            for each in self._list(["PENDING"])
-            if each.executor_id is not None
-        }
-
-    def ending(self, job_id: str) -> str | None:
-        """How a job's execution ended: one of ``ENDED``; None if it has not."""
-        found = self._list(ENDED, job_id=job_id)
-        return found[0].status if found else None
-
-    def remove(self, job_ids: Collection[str]) -> None:
-        """Forget executions, with their checkpoints."""
-        self._client.delete_workflows(list(job_ids))
-
-    def declare_queue(self, executor_id: str) -> None:
-        """Make the queue on which an executor continues what others have begun."""
-        self._client.register_queue(queue_of(executor_id), polling_interval_sec=CONTINUE_S)
-
-    def drop_queue(self, executor_id: str) -> None:
-        """Remove the queue of an executor that is gone."""
-        self._client.delete_queue(queue_of(executor_id))
-
-    def _list(self, status: Sequence[str], *, job_id: str | None = None) -> list[WorkflowStatus]:
-        return self._client.list_workflows(
-            workflow_ids=None if job_id is None else [job_id],
-            name=WORKFLOW,
-            status=list(status),
-            load_input=False,
-            load_output=False,
-        )
+def ending(client: DBOSClient, job_id: str) -> str | None:
+    """How a job's execution ended: one of ``ENDED``; None if it has not."""
+    found = client.list_workflows(
+        workflow_ids=[job_id],
+        name=WORKFLOW,
+        status=list(ENDED),
+        load_input=False,
+        load_output=False,
+    )
+    return found[0].status if found else None

@@ -12,10 +12,11 @@ from collections.abc import Callable, Collection
 from typing import Final
 
 import sqlalchemy as sa
+from dbos import DBOSClient
 
 from service.jobs.claims import Claims
 from service.jobs.database import ABSENCES
-from service.jobs.executions import Executions
+from service.jobs.executions import CONTINUE_S, holders, queue_of
 from service.jobs.liveness import WorkerWatch, this_process
 from service.jobs.slots import WorkerSlots
 from service.jobs.tables import WORKERS
@@ -38,7 +39,7 @@ class Heartbeat:
         interval_s: float,
         dead_after_s: float,
         claims: Claims,
-        executions: Executions,
+        client: DBOSClient,
         slots: WorkerSlots,
         is_able: Callable[[], bool],
         monotonic: Callable[[], float] = time.monotonic,
@@ -47,7 +48,7 @@ class Heartbeat:
         self._executor_id = executor_id
         self._interval_s = interval_s
         self._claims = claims
-        self._executions = executions
+        self._client = client
         self._slots = slots
         self._is_able = is_able
         self._monotonic = monotonic
@@ -57,10 +58,6 @@ class Heartbeat:
         self._has_queue = False
         self._dropped_since: dict[str, float] = {}
         self._thread = threading.Thread(target=self._run, name="heartbeat", daemon=True)
-
-    def register(self) -> None:
-        """Make this worker known, before it claims anything."""
-        self._beat()
 
     def start(self) -> None:
         """Begin to beat and to watch the others: DBOS must be running by now."""
@@ -75,7 +72,7 @@ class Heartbeat:
     def _run(self) -> None:
         while True:
             try:
-                self._beat()
+                self.beat()
                 self._take_over()
                 self._pick_up()
             except ABSENCES as error:
@@ -89,7 +86,8 @@ class Heartbeat:
             if self._stopped.wait(self._interval_s):
                 return
 
-    def _beat(self) -> None:
+    def beat(self) -> None:
+        """Say that this worker is there; once before it claims anything."""
         able = self._is_able()
         with self._database.begin() as connection:
             beaten = connection.execute(
@@ -111,16 +109,17 @@ class Heartbeat:
                     )
                 )
         if not self._has_queue:
-            self._executions.declare_queue(self._executor_id)
+            queue = queue_of(self._executor_id)
+            self._client.register_queue(queue, polling_interval_sec=CONTINUE_S)
             self._has_queue = True
 
     def _take_over(self) -> None:
         # In this order: a worker makes itself known before it claims anything.
-        holders, executions = self._claims.holders(), self._executions.holders()
+        claimed_by, executions = self._claims.holders(), holders(self._client)
         with self._database.connect() as connection:
             workers = connection.execute(sa.select(WORKERS)).all()
         alive = self._watch.alive(workers) | {self._executor_id}
-        dead = sorted(holders - alive)
+        dead = sorted(claimed_by - alive)
         if dead:
             LOG.warning("Taking over the jobs of %s.", ", ".join(dead))
             self._claims.take_from(dead)
@@ -129,7 +128,7 @@ class Heartbeat:
             # Those of jobs that have ended: their workers died before DBOS had recorded it.
             ended = left - self._claims.waiting_or_held(left)
             if ended:
-                self._executions.remove(ended)
+                self._client.delete_workflows(list(ended))
         gone = [row.executor_id for row in workers if row.executor_id not in alive]
         if gone:
             self._forget(gone)
@@ -157,4 +156,4 @@ class Heartbeat:
         with self._database.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(executor_ids)))
         for each in executor_ids:
-            self._executions.drop_queue(each)
+            self._client.delete_queue(queue_of(each))

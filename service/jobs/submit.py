@@ -16,7 +16,6 @@ came keeps what it has, and a canceled job's turn passes.
 """
 
 import time
-from dataclasses import dataclass
 from typing import Final
 
 import sqlalchemy as sa
@@ -233,25 +232,16 @@ def _may_succeed_yet(product: JobRecord) -> bool:
     return product.state is JobState.TIMED_OUT
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class QueueSight:
-    """The queue as it is when a job is accepted; the numbers are turns, None where there is none.
+def next_turn(*, begun: int | None, waiting: int | None, own: int | None, others: int) -> int:
+    """Return the turn of one more job, counted from 1; None is where there is no such job.
 
-    ``begun`` is the highest of the running jobs, ``waiting`` the lowest of those that wait, ``own``
-    the last of the owner's; ``others`` is 1 where the tenant's other owner has jobs waiting.
+    ``begun`` is the highest turn of the running jobs, ``waiting`` the lowest of those that wait,
+    ``own`` the last of the owner's; ``others`` is 1 where the tenant's other owner has jobs
+    waiting.
     """
-
-    begun: int | None
-    waiting: int | None
-    own: int | None
-    others: int
-
-
-def next_turn(seen: QueueSight) -> int:
-    """Return the turn of one more job, counted from 1."""
-    served = max(seen.begun or 1, 1 if seen.waiting is None else seen.waiting - 1)
-    earliest = served if seen.own is None else max(served, seen.own + 1)
-    return earliest + seen.others
+    served = max(begun or 1, 1 if waiting is None else waiting - 1)
+    earliest = served if own is None else max(served, own + 1)
+    return earliest + others
 
 
 def turn_of_next_job(connection: sa.Connection, *, tenant: str, is_product: bool) -> int:
@@ -267,6 +257,4 @@ def turn_of_next_job(connection: sa.Connection, *, tenant: str, is_product: bool
             sa.func.count(sa.distinct(sa.case((others, JOBS.c.tenant)))).label("others"),
         ).where(sa.or_(_WAITING, _RUNNING))
     ).one()
-    return next_turn(
-        QueueSight(begun=row.begun, waiting=row.waiting, own=row.own, others=row.others)
-    )
+    return next_turn(begun=row.begun, waiting=row.waiting, own=row.own, others=row.others)

@@ -31,9 +31,9 @@ from service.jobs.database import ABSENCES, BODY_MODELS_FACT, write_fact
 from service.jobs.executions import (
     FAILED,
     WORKFLOW,
-    Executions,
     client_of,
     configure,
+    ending,
     queue_of,
 )
 from service.jobs.heartbeat import Heartbeat
@@ -76,9 +76,8 @@ class WorkerEngine:
         self._is_able = is_able
         self._is_holding_back = False
         self._slots = WorkerSlots(settings.worker_processes, poll_s=QUEUE_POLL_S)
-        client = client_of(database)
-        self._executions = Executions(client)
-        notify = partial(enqueue_notice, client)
+        self._client = client_of(database)
+        notify = partial(enqueue_notice, self._client)
         endings = Endings(retention_s=settings.retention_s, notify=notify)
         self._claims = Claims(database, executor_id=self.executor_id, endings=endings)
         self._attempts = AttemptLog(
@@ -93,7 +92,7 @@ class WorkerEngine:
             executor_id=self.executor_id,
             interval_s=settings.heartbeat_s,
             dead_after_s=settings.dead_after_s,
-            executions=self._executions,
+            client=self._client,
             claims=self._claims,
             slots=self._slots,
             is_able=is_able,
@@ -117,7 +116,7 @@ class WorkerEngine:
         DBOS.listen_queues([queue_of(self.executor_id)])
         with self._database.begin() as connection:
             write_fact(connection, BODY_MODELS_FACT, body_models.model_dump_json())
-        self._heartbeat.register()
+        self._heartbeat.beat()
         DBOS.launch()
         self._heartbeat.start()
         self._claiming.start()
@@ -168,16 +167,16 @@ class WorkerEngine:
             self._continue(job_id)
 
     def _continue(self, job_id: str) -> None:
-        ending = self._executions.ending(job_id)
-        if ending is None:
+        ended = ending(self._client, job_id)
+        if ended is None:
             DBOS.resume_workflow(job_id, queue_name=queue_of(self.executor_id))
             return
-        LOG.error("Job %s was left %s by its execution.", job_id, ending)
-        if ending == FAILED:
+        LOG.error("Job %s was left %s by its execution.", job_id, ended)
+        if ended == FAILED:
             self._claims.give_up(job_id)
             self._slots.free(job_id)
         else:
-            self._executions.remove([job_id])
+            self._client.delete_workflow(job_id)
             self._execute(job_id)
 
     def _register(self, handler: AttemptHandler) -> None:

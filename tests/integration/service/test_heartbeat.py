@@ -13,7 +13,14 @@ from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.jobs.claims import Claims
 from service.jobs.database import open_database, prepare_database
-from service.jobs.executions import EXECUTION_VERSION, WORKFLOW, Executions, client_of, queue_of
+from service.jobs.executions import (
+    EXECUTION_VERSION,
+    WORKFLOW,
+    client_of,
+    ending,
+    holders,
+    queue_of,
+)
 from service.jobs.heartbeat import DROPPED_AFTER_S, Heartbeat
 from service.jobs.slots import WorkerSlots
 from tests.integration.service.harness import PATIENCE_S, Machine, eventually
@@ -44,12 +51,12 @@ class Worker:
             interval_s=0.02,
             dead_after_s=60.0,
             claims=self.claims,
-            executions=Executions(client_of(database)),
+            client=client_of(database),
             slots=self.slots,
             is_able=self._count,
             monotonic=lambda: self.now_s,
         )
-        self.heartbeat.register()
+        self.heartbeat.beat()
         assert self.claims.take(1) == ["job"]
         self.slots.take("job")
         self.heartbeat.start()
@@ -138,23 +145,22 @@ def test_ended_and_waiting_executions_are_told_apart(database: sa.Engine):
         )
     client.cancel_workflow("canceled")
     client.cancel_workflow("another")
-    executions = Executions(client)
-    assert executions.ending("canceled") == "CANCELLED"
-    assert executions.ending("waiting") is None
-    assert executions.ending("unknown") is None
-    assert executions.holders() == {}
-    executions.remove(["waiting", "canceled"])
-    assert executions.ending("canceled") is None
-    assert executions.ending("another") == "CANCELLED"
+    assert ending(client, "canceled") == "CANCELLED"
+    assert ending(client, "waiting") is None
+    assert ending(client, "unknown") is None
+    assert holders(client) == {}
+    client.delete_workflows(["waiting", "canceled"])
+    assert ending(client, "canceled") is None
+    assert ending(client, "another") == "CANCELLED"
 
 
 def test_a_database_that_is_away_is_told_and_not_waited_for():
-    executions = Executions(client_of(open_database(NOBODY)))
+    client = client_of(open_database(NOBODY))
     told: list[OperationalError] = []
 
     def look() -> None:
         with pytest.raises(OperationalError) as caught:
-            executions.holders()
+            holders(client)
         told.append(caught.value)
 
     looking = threading.Thread(target=look, daemon=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.jobs.submit import QueueSight, next_turn
+from service.jobs.submit import next_turn
 
 ALICE, BOB, CAROL = "alice", "bob", "carol"
 ALICES_PRODUCTS = "alice products"
@@ -28,12 +28,10 @@ class Played:
             of_tenant = {each for _, _, each in self.waiting if each[:3] == tenant[:3]}
             turns = [turn for turn, _, each in (*self.waiting, *self.running) if each == tenant]
             turn = next_turn(
-                QueueSight(
-                    begun=max((turn for turn, _, _ in self.running), default=None),
-                    waiting=min((turn for turn, _, _ in self.waiting), default=None),
-                    own=max(turns, default=None),
-                    others=len(of_tenant - {tenant}),
-                )
+                begun=max((turn for turn, _, _ in self.running), default=None),
+                waiting=min((turn for turn, _, _ in self.waiting), default=None),
+                own=max(turns, default=None),
+                others=len(of_tenant - {tenant}),
             )
             self.accepted += 1
             self.waiting.append((turn, self.accepted, tenant))
@@ -96,7 +94,7 @@ def test_who_comes_while_nothing_runs_waits_for_nothing_that_came_later():
 
 
 def test_the_first_job_has_the_first_turn():
-    assert next_turn(QueueSight(begun=None, waiting=None, own=None, others=0)) == 1
+    assert next_turn(begun=None, waiting=None, own=None, others=0) == 1
 
 
 STEPS = st.lists(st.one_of(st.sampled_from("abcde"), st.none()), max_size=120)
