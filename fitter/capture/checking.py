@@ -109,6 +109,9 @@ def check_capture(capture: Capture) -> Checked:
 def _remarks(capture: Capture) -> list[Remark]:
     made = [remark for check in CHECKS_OF_PICTURE if (remark := check(capture)) is not None]
     if capture.shows_somebody:
-        return made + [remark for check in CHECKS_OF_PERSON if (remark := check(capture))]
+        blurred = any(each.code is Code.BLURRED and each.is_finding for each in made)
+        # A face that is not found in a blurred picture need not be hidden.
+        checks = [check for check in CHECKS_OF_PERSON if not (blurred and check is face)]
+        return made + [remark for check in checks if (remark := check(capture)) is not None]
     codes = CODES_OF_PERSON if capture.view is None else (*CODES_OF_PERSON, Code.OTHER_VIEW)
     return made + [unchecked(code, "Nobody was found.") for code in codes]

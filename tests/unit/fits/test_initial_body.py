@@ -122,7 +122,7 @@ def test_a_head_alone_is_refused(request_of_standing_person):
 
 def hypothesis(energy: float, **facing: Facing) -> PoseHypothesis:
     body = BodyParameters(pose=np.zeros((1, 3)), translation=np.zeros(3), shape=np.zeros(1))
-    return PoseHypothesis(parameters=body, energy=energy, facing=facing, flipped=())
+    return PoseHypothesis(parameters=body, energy=energy, facing=facing)
 
 
 def test_a_limb_is_ambiguous_where_a_reading_nearly_as_good_says_otherwise():
