@@ -40,9 +40,11 @@ async function submittedAsForm(): Promise<Fit> {
   return told(data, error);
 }
 
-async function submittedAsJson(images: string[]): Promise<Fit> {
+async function submittedById(images: string[]): Promise<Fit> {
   const views = (asked.views ?? []).map((view, place) => ({ ...view, image_id: images[place] ?? null }));
-  const { data, error } = await POST("/v1/fits", { body: { ...asked, views } });
+  const form = new FormData();
+  form.append("request", JSON.stringify({ ...asked, views }));
+  const { data, error } = await POST("/v1/fits", { body: { request: { ...asked, views } }, bodySerializer: () => form });
   return told(data, error);
 }
 
@@ -70,7 +72,7 @@ async function found(fit: Fit): Promise<Found> {
 
 const images: string[] = [];
 for (const picture of pictures) images.push(await uploaded(picture));
-const fits = [await submittedAsForm(), await submittedAsJson(images)] as const;
+const fits = [await submittedAsForm(), await submittedById(images)] as const;
 const results = [await found(fits[0]), await found(fits[1])] as const;
 const path = { fit_id: fits[0].id };
 const file = await GET("/v1/fits/{fit_id}/files/{name}", {
