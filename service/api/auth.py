@@ -7,7 +7,6 @@ pages could submit, though not read). The first shows in the Host header, the se
 """
 
 import time
-from dataclasses import dataclass
 from typing import Final
 from urllib.parse import SplitResult, urlsplit
 
@@ -17,7 +16,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.api.limits import RateLimit
 from service.api.problems import ProblemError, problem_error, problem_response
-from service.jobs.keys import ApiKey, KeyRing, Role, hash_key
+from service.jobs.keys import ApiKey, KeyRing, hash_key
 from service.jobs.records import EngineUnavailableError
 from service.settings import is_loopback
 
@@ -31,6 +30,9 @@ ROOT: Final = "/"
 """The page, which asks the user for a key itself."""
 
 METRICS_PATH: Final = "/metrics"
+METRICS_TENANT: Final = "metrics"
+"""Its keys open that path and nothing else, and no other keys do."""
+
 HARMLESS: Final = frozenset({"GET", "HEAD", "OPTIONS"})
 
 REFRESH_S: Final = 5.0
@@ -43,14 +45,6 @@ KEY_REMEDY: Final = (
     "Send the header 'Authorization: Bearer' with a key; whoever runs the service makes one with: "
     "maquette keys create TENANT"
 )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Caller:
-    """The sender of a request: a tenant, and the key it used."""
-
-    tenant: str
-    key_id: str | None = None
 
 
 class KnownKeys:
@@ -88,7 +82,7 @@ class KnownKeys:
 
 
 class Authentication:
-    """ASGI middleware: sets ``request.state.caller``, or answers 401, 403 or 429."""
+    """ASGI middleware: sets ``request.state.tenant``, or answers 401, 403 or 429."""
 
     def __init__(self, app: ASGIApp, *, keys: KeyRing, rate_limit: RateLimit) -> None:
         self._app = app
@@ -102,17 +96,17 @@ class Authentication:
             return
         request = Request(scope)
         try:
-            request.state.caller = await self._caller(request)
+            request.state.tenant = await self._tenant(request)
         except ProblemError as error:
             answer = problem_response(request, error.problem, error.headers)
             await answer(scope, receive, send)
             return
         await self._app(scope, receive, send)
 
-    async def _caller(self, request: Request) -> Caller:
+    async def _tenant(self, request: Request) -> str:
         path = request.url.path
         if path == ROOT or path.startswith(OPEN):
-            return Caller(tenant=SOLE_TENANT)
+            return SOLE_TENANT
         scheme, _, presented = request.headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer" or not presented.strip():
             raise _unauthorized(detail="There is no API key.")
@@ -122,17 +116,17 @@ class Authentication:
             raise _not_ready() from error
         if key is None:
             raise _unauthorized(detail="The API key is unknown or revoked.")
-        if (key.role is Role.METRICS) != (path == METRICS_PATH):
+        if (key.tenant == METRICS_TENANT) != (path == METRICS_PATH):
             raise _forbidden(
                 code="wrong-role",
-                detail=f"This key is for {key.role} only.",
+                detail=f"{METRICS_PATH} and keys of the tenant '{METRICS_TENANT}' go together.",
                 remedy="Use a key made for this purpose.",
                 field="Authorization",
             )
         retry_after_s = self._rate_limit.take(key.id)
         if retry_after_s:
             raise _too_many(retry_after_s)
-        return Caller(tenant=key.tenant, key_id=key.id)
+        return key.tenant
 
 
 class LocalGuard:
@@ -149,7 +143,7 @@ class LocalGuard:
         """Pass the request on if it comes from here."""
         if scope["type"] == "http":
             request = Request(scope)
-            request.state.caller = Caller(tenant=SOLE_TENANT)
+            request.state.tenant = SOLE_TENANT
             error = self._objection(request)
             if error is not None:
                 await problem_response(request, error.problem)(scope, receive, send)

@@ -6,7 +6,6 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 
-from service.api.auth import Caller
 from service.api.estimators import Estimators
 from service.api.events import EventFeed
 from service.api.observation import ServiceMetrics
@@ -45,13 +44,13 @@ class ApiContext(Parts):
 
 def _context(request: Request) -> ApiContext:
     parts: Parts = request.app.state.parts
-    caller: Caller = request.state.caller
+    tenant: str = request.state.tenant
     engine = parts.engine
     return ApiContext(
         **{each.name: getattr(parts, each.name) for each in fields(Parts)},
-        tenant=caller.tenant,
-        jobs=engine.of(caller.tenant),
-        images=engine.images_of(caller.tenant),
+        tenant=tenant,
+        jobs=engine.of(tenant),
+        images=engine.images_of(tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

@@ -79,7 +79,7 @@ async def get_readiness(request: Request) -> Health:
     },
 )
 def get_metrics(context: Context) -> Response:
-    """Return queue, workers, endings, durations and requests; needs a key made for metrics."""
+    """Return queue, workers, endings, durations and requests, for keys of the tenant `metrics`."""
     return Response(context.metrics.exposition(), media_type=CONTENT_TYPE_LATEST)
 
 

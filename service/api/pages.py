@@ -17,7 +17,6 @@ from starlette.types import Scope
 from api_schemas.service import ServiceIndex
 from service.api.context import Parts
 from service.api.headers import OWN_CAMERA, OWN_FILES, STATIC_SITE
-from service.api.problems import problem_error
 
 ROUTER: Final = APIRouter(include_in_schema=False)
 
@@ -160,26 +159,15 @@ def mount_files(app: FastAPI) -> None:
 
 
 def mount_site(app: FastAPI, folder: Path) -> None:
-    """Serve the documentation; where it has not been built, lead to the API or say so."""
+    """Serve the documentation; where it has not been built, lead to that of the API."""
     path = "/documentation"
-    if not folder.is_dir():
-        for each in (path, f"{path}/{{page:path}}"):
-            app.add_route(each, _absent, include_in_schema=False)
-        return
+    is_there = folder.is_dir()
 
-    def begin(_: Request) -> Response:
-        return RedirectResponse(f"{path}/", status_code=308)
+    def lead_on(_: Request) -> Response:
+        return RedirectResponse(f"{path}/" if is_there else "/docs", status_code=307)
 
-    app.add_route(path, begin, include_in_schema=False)
-    app.mount(path, _Site(directory=folder, html=True))
-
-
-def _absent(request: Request) -> Response:
-    if "text/html" in request.headers.get("Accept", ""):
-        return RedirectResponse("/docs", status_code=307)
-    raise problem_error(
-        slug="not-found",
-        detail="This service has no documentation site.",
-        remedy="`make docs` builds it from a clone, whose files in service/docs can be read as "
-        "they are; the image of a release has it. Start the service again afterwards.",
-    )
+    app.add_route(path, lead_on, include_in_schema=False)
+    if is_there:
+        app.mount(path, _Site(directory=folder, html=True))
+    else:
+        app.add_route(f"{path}/{{page:path}}", lead_on, include_in_schema=False)

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from service.jobs.database import open_database, prepare_database
-from service.jobs.keys import KeyRing, Role
+from service.jobs.keys import KeyRing
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
 from service.startup import UNUSABLE, given, run_command
@@ -17,12 +17,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(required=True, metavar="ACTION")
     create = actions.add_parser("create", help="make a key and print it, once")
     create.add_argument("tenant", help="whose jobs it opens; made by being named")
-    create.add_argument(
-        "--role",
-        choices=("fits", "metrics"),
-        default="fits",
-        help="metrics: opens /metrics and nothing else (default: %(default)s)",
-    )
     listing = actions.add_parser("list", help="list all keys")
     revoke = actions.add_parser("revoke", help="make a key useless")
     revoke.add_argument("id", help="the part of the key between the underscores")
@@ -43,7 +37,7 @@ def run(parsed: argparse.Namespace) -> int:
 def _create(ring: KeyRing, parsed: argparse.Namespace) -> int:
     """Print the key alone and only this once."""
     try:
-        key = ring.create(parsed.tenant, Role(parsed.role))
+        key = ring.create(parsed.tenant)
     except ValueError as error:
         print(f"maquette keys: {error}.", file=sys.stderr)
         return UNUSABLE
@@ -53,10 +47,10 @@ def _create(ring: KeyRing, parsed: argparse.Namespace) -> int:
 
 
 def _list(ring: KeyRing, _: argparse.Namespace) -> int:
-    """Print every key's id, tenant, role and dates."""
+    """Print every key's id, tenant and dates."""
     for key in ring.all_keys():
         revoked = "" if key.revoked_at is None else f" revoked {_day(key.revoked_at)}"
-        print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)}{revoked}")
+        print(f"{key.id} {key.tenant} created {_day(key.created_at)}{revoked}")
     return 0
 
 

@@ -33,7 +33,7 @@ T = TypeVar("T")
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created and facts are settled."""
 
-SCHEMA_VERSION: Final = "9"
+SCHEMA_VERSION: Final = "10"
 SCHEMA_FACT: Final = "schema_version"
 BODY_MODELS_FACT: Final = "body_models"
 """What the worker that last started can fit, as JSON."""

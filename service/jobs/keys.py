@@ -10,7 +10,6 @@ import secrets
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any, Final
 
 import sqlalchemy as sa
@@ -22,20 +21,12 @@ MARK: Final = "mq"
 TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
 
 
-class Role(StrEnum):
-    """What a key gives access to: a tenant's fits, or the service's metrics and nothing else."""
-
-    FITS = "fits"
-    METRICS = "metrics"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiKey:
     """A stored key; times are seconds since the epoch."""
 
     id: str
     tenant: str
-    role: Role
     secret_hash: str
     created_at: float
     revoked_at: float | None
@@ -48,7 +39,7 @@ class KeyRing:
         self._database = database
 
     @available
-    def create(self, tenant: str, role: Role = Role.FITS) -> str:
+    def create(self, tenant: str) -> str:
         """Create a key and return it; it cannot be shown again.
 
         Raises
@@ -66,7 +57,6 @@ class KeyRing:
                 sa.insert(API_KEYS).values(
                     id=identity,
                     tenant=tenant,
-                    role=role.value,
                     secret_hash=hash_key(key),
                     created_at=time.time(),
                 )
@@ -91,15 +81,10 @@ class KeyRing:
         """Return all keys, oldest first."""
         query = sa.select(API_KEYS).order_by(API_KEYS.c.created_at)
         with self._database.connect() as connection:
-            rows = connection.execute(query).mappings().all()
-        return [_api_key(row) for row in rows]
+            rows: list[dict[str, Any]] = [{**row} for row in connection.execute(query).mappings()]
+        return [ApiKey(**row) for row in rows]
 
 
 def hash_key(key: str) -> str:
     """Return what is stored in place of a key."""
     return hashlib.sha256(key.encode()).hexdigest()
-
-
-def _api_key(row: sa.RowMapping) -> ApiKey:
-    values: dict[str, Any] = {**row, "role": Role(row["role"])}
-    return ApiKey(**values)

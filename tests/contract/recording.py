@@ -20,7 +20,7 @@ import service.api
 from service.api.fits import FITS
 from service.demo_data.sample import FOLDER, load_sample
 from service.jobs.database import open_database, prepare_database
-from service.jobs.keys import KeyRing, Role
+from service.jobs.keys import KeyRing
 from service.settings import Settings
 from tests.contract.recorder import SHOWN, Recorder
 from tests.e2e.service import (
@@ -200,7 +200,7 @@ def recorded_from_service(folder: Path) -> dict[str, Any]:
     prepare_database(url)
     database = open_database(url, connections=1)
     keys = KeyRing(database)
-    key, metrics_key = keys.create("shop"), keys.create("shop", Role.METRICS)
+    key, metrics_key = keys.create("shop"), keys.create("metrics")
     database.dispose()
     environment = {
         **os.environ,

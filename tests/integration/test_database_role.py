@@ -10,7 +10,7 @@ import psycopg
 import pytest
 
 from service.jobs.database import check_database, open_database, prepare_database
-from service.jobs.keys import KeyRing, Role
+from service.jobs.keys import KeyRing
 from tests.postgres import server_folder
 
 SCRIPT = Path(__file__).parents[2] / "docker" / "database_role.sh"
@@ -76,7 +76,7 @@ def test_the_role_makes_the_tables_of_the_service_and_uses_them(url: str):
     database = open_database(url, connections=1)
     try:
         ring = KeyRing(database)
-        ring.create("somebody", Role.FITS)
+        ring.create("somebody")
         assert [key.tenant for key in ring.all_keys()] == ["somebody"]
     finally:
         database.dispose()

@@ -21,7 +21,7 @@ def test_tables_of_another_version_are_refused(tmp_path: Path):
         )
     database.dispose()
     for begin in (check_database, prepare_database):
-        with pytest.raises(DatabaseUnusableError, match="tables 7, here 9") as refused:
+        with pytest.raises(DatabaseUnusableError, match="tables 7, here 10") as refused:
             begin(url)
         assert "\n" not in str(refused.value)
 
