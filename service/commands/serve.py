@@ -14,8 +14,8 @@ from typing import Final
 from service.compute.lanes import SOCKET, asking
 from service.compute.models import check_detector, check_models
 from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
-from service.jobs.database import check_database, open_database, prepare_database
-from service.jobs.storage_identity import check_storage, take_storage
+from service.jobs.database import open_database, prepare_database
+from service.jobs.storage_identity import take_storage
 from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.listener import Listener, listen
 from service.process.supervisor import PYTHON, SupervisedProcess
@@ -110,10 +110,7 @@ def serve(
     from service.jobs.keys import KeyRing
     from service.jobs.notices import send_notice, start_notices, stop_notices
 
-    url = settings.system_database_url
-    prepare_database(url)
-    take_storage(url, blobs, named=setting_of_storage(settings))
-    database = open_database(url)
+    database = open_database(settings.system_database_url)
     engine = JobEngine(database, blobs, settings)
     send = partial(send_notice, blobs=blobs, represent=represent, settings=settings)
     draining = threading.Event()
@@ -152,7 +149,7 @@ def serve(
 
 
 def preflight(settings: Settings, *, adopt_storage: bool = False) -> BlobStore:
-    """Check data folder, models, detector, database and storage, and return the last.
+    """Check data folder, models and detector, prepare database and storage; return the last.
 
     Waits for a database or a storage that does not answer. With ``adopt_storage`` the storage takes
     the place of the one that the database had.
@@ -169,14 +166,10 @@ def preflight(settings: Settings, *, adopt_storage: bool = False) -> BlobStore:
     prepare_data_folder(settings)
     check_models(settings)
     check_detector(settings)
-    url, named = settings.system_database_url, setting_of_storage(settings)
-    check_database(url)
+    url = settings.system_database_url
+    prepare_database(url)
     blobs = open_blob_store(settings)
-    if adopt_storage:
-        prepare_database(url)
-        take_storage(url, blobs, named=named, adopt=True)
-    else:
-        check_storage(url, blobs, named=named)
+    take_storage(url, blobs, named=setting_of_storage(settings), adopt=adopt_storage)
     return blobs
 
 

@@ -93,35 +93,25 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
 
 @retry_while_database_is_away
-def check_database(url: str) -> None:
-    """Check that the database answers, is not damaged and has no tables of another version.
+def prepare_database(url: str) -> None:
+    """Create all tables; safe to run in several processes at once.
 
     Waits for a database that does not answer.
 
     Raises
     ------
     DatabaseUnusableError
-        If it answers but cannot be used as it is.
+        If it answers but cannot be used as it is: damaged, or with tables of another version.
     """
+    # Imported here because it takes half a second to load.
+    from dbos import DBOS
+
     with opened(url) as engine:
         if engine.dialect.name == "sqlite":
             with engine.connect() as connection:
                 found = connection.execute(sa.text("PRAGMA quick_check(1)")).scalar_one()
             if found != "ok":
                 raise _unusable(url, f"it is damaged: {found}")
-        _check_schema(engine)
-
-
-@retry_while_database_is_away
-def prepare_database(url: str) -> None:
-    """Create all tables; safe to run in several processes at once.
-
-    Waits and raises as :func:`check_database` does.
-    """
-    # Imported here because it takes half a second to load.
-    from dbos import DBOS
-
-    with opened(url) as engine:
         _check_schema(engine)
         if engine.dialect.name == "sqlite":
             prepare_file(engine)

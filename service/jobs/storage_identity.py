@@ -27,7 +27,6 @@ from service.jobs.database import (
     retry_while_database_is_away,
     write_fact,
 )
-from service.jobs.tables import FACTS
 from service.process.retrying import retry_with_pauses
 
 STORAGE_FACT: Final = "storage"
@@ -40,35 +39,19 @@ retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage"
 
 @retry_while_database_is_away
 @retry_while_storage_is_away
-def check_storage(url: str, blobs: BlobStore, *, named: str) -> None:
-    """Check that the storage is the database's, if the database has one by now.
-
-    Waits for a database or a storage that does not answer. ``named`` is the setting that names the
-    storage, with its value.
-
-    Raises
-    ------
-    StorageUnusableError
-        If it is another, or refuses what it is asked for.
-    """
-    with opened(url) as engine:
-        if not sa.inspect(engine).has_table(FACTS.name):
-            return
-        with engine.connect() as connection:
-            number = read_fact(connection, STORAGE_FACT)
-    if number is not None:
-        _check(blobs, number, named)
-
-
-@retry_while_database_is_away
-@retry_while_storage_is_away
 def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False) -> None:
     """Take the storage for the database's from now on, unless it has one: then check it.
 
     A new database has none, so the first process that starts decides; its folder or bucket is made
     unless it is there, and must not be that of another database. With ``adopt`` the storage takes
-    the place of the one that the database had. Waits and raises as :func:`check_storage` does; the
-    tables must be there.
+    the place of the one that the database had. ``named`` is the setting that names the storage,
+    with its value. The tables must be there. Waits for a database or a storage that does not
+    answer.
+
+    Raises
+    ------
+    StorageUnusableError
+        If it is another database's, or refuses what it is asked for.
     """
     with opened(url) as engine:
         with engine.connect() as connection:
