@@ -138,14 +138,6 @@ class _EngineCollector(Collector):
             "Workers that are alive and can start processes for jobs.",
             sum(each.is_ready for each in workers),
         )
-        ages = GaugeMetricFamily(
-            "maquette_worker_heartbeat_age_seconds",
-            "For how long a worker's heart was watched without a beat.",
-            labels=["worker"],
-        )
-        for worker in workers:
-            ages.add_metric([worker.executor_id], worker.heartbeat_age_s)
-        yield ages
         outcomes = CounterMetricFamily(
             "maquette_jobs_ended", "Jobs that ever ended, by state.", labels=["state"]
         )

@@ -119,12 +119,7 @@ class WorkerWatch:
             alive = False
         else:
             alive = True if runs or sight.has_beaten else None
-        return WorkerStatus(
-            executor_id=row.executor_id,
-            alive=alive,
-            able=row.able,
-            heartbeat_age_s=sight.silent_s,
-        )
+        return WorkerStatus(executor_id=row.executor_id, alive=alive, able=row.able)
 
     def _runs(self, row: sa.Row[Any]) -> bool | None:
         """Ask the process table; None if the worker is elsewhere, or if it cannot be told."""

@@ -182,7 +182,7 @@ class Submission:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerStatus:
-    """A worker as seen from here: how long ago its last heartbeat was seen, by our own clock.
+    """A worker as seen from here.
 
     ``alive`` is None as long as the worker has been seen only once and nothing can be said.
     ``able`` is what it says of itself with its heartbeat: that it can start processes for jobs.
@@ -191,7 +191,6 @@ class WorkerStatus:
     executor_id: str
     alive: bool | None
     able: bool
-    heartbeat_age_s: float
 
     @property
     def is_ready(self) -> bool:
