@@ -13,7 +13,7 @@ from typing import Final
 
 from service.compute.lanes import SOCKET, asking
 from service.compute.models import check_detector, check_models
-from service.jobs.blobs import BlobStore, open_blob_store, setting_of_storage
+from service.jobs.blobs import BlobStore, open_blob_store
 from service.jobs.database import open_database, prepare_database
 from service.jobs.storage_identity import take_storage
 from service.process.data_folder import open_disk, prepare_data_folder
@@ -166,10 +166,9 @@ def preflight(settings: Settings, *, adopt_storage: bool = False) -> BlobStore:
     prepare_data_folder(settings)
     check_models(settings)
     check_detector(settings)
-    url = settings.system_database_url
-    prepare_database(url)
+    prepare_database(settings.system_database_url)
     blobs = open_blob_store(settings)
-    take_storage(url, blobs, named=setting_of_storage(settings), adopt=adopt_storage)
+    take_storage(settings, blobs, adopt=adopt_storage)
     return blobs
 
 

@@ -17,7 +17,7 @@ from service.compute.kernels import settle_folders
 from service.compute.lanes import QuickLane, answer_questions
 from service.compute.models import check_detector, check_models, read_models
 from service.compute.tasks import child_setup
-from service.jobs.blobs import open_blob_store, setting_of_storage
+from service.jobs.blobs import open_blob_store
 from service.process.confinement import warn_of_weakness
 from service.process.data_folder import prepare_data_folder
 from service.process.supervisor import SAFE_PATH_VARIABLE
@@ -81,7 +81,7 @@ def run_worker(
     from service.jobs.worker import WorkerEngine
 
     prepare_database(settings.system_database_url)
-    take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
+    take_storage(settings, blobs)
     runner = JobRunner(settings, blobs, server, setup)
     engine = WorkerEngine(
         open_database(

@@ -21,7 +21,7 @@ from service.jobs.database import (
     retry_while_database_is_away,
     touch_fact,
 )
-from service.jobs.records import AttemptResult, Directive, Ending, JobRecord, Report
+from service.jobs.records import AttemptResult, Directive, JobRecord, Report
 from service.jobs.rows import (
     FILES,
     Endings,
@@ -35,13 +35,6 @@ from service.jobs.tables import JOBS
 from service.process.retrying import LONGEST_PAUSE_S
 
 LOG: Final = logging.getLogger(__name__)
-
-FINAL_STATES: Final = {
-    Ending.SUCCEEDED: JobState.SUCCEEDED,
-    Ending.FAILED: JobState.FAILED,
-    Ending.CANCELED: JobState.CANCELED,
-    Ending.TIMED_OUT: JobState.TIMED_OUT,
-}
 
 
 def given_up(reason: str) -> Problem:
@@ -174,7 +167,7 @@ class AttemptLog:
     @retry_while_database_is_away
     def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:
         """Publish the result; None if the attempt was superseded or the job erased."""
-        state = FINAL_STATES[result.ending]
+        state = JobState(result.ending.value)
         complete = {"progress": 1.0} if state is JobState.SUCCEEDED else {}
         with self._database.begin() as connection:
             ended = self._endings.end(

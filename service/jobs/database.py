@@ -65,25 +65,22 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
     Statements are logged without their parameters, so that no caller's data gets into a log.
     """
     parsed = sa.make_url(url)
+    pool: dict[str, Any] = {
+        "pool_size": connections,
+        "max_overflow": 0,
+        "pool_timeout": WAIT_S,
+        "hide_parameters": True,
+    }
     if parsed.get_backend_name() == "sqlite":
         check_sqlite_version()
         secure_file(Path(parsed.database or ""))
-        engine = sa.create_engine(
-            parsed,
-            pool_size=connections,
-            max_overflow=0,
-            pool_timeout=WAIT_S,
-            hide_parameters=True,
-        )
+        engine = sa.create_engine(parsed, **pool)
         event.listen(engine, "connect", configure_connection)
         return engine
     engine = sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
-        pool_size=connections,
-        max_overflow=0,
-        pool_timeout=WAIT_S,
+        **pool,
         pool_pre_ping=True,
-        hide_parameters=True,
         connect_args={
             name: value for name, value in POSTGRES_CONNECTION.items() if name not in parsed.query
         },

@@ -33,7 +33,7 @@ from service.jobs.records import (
     WorkerStatus,
 )
 from service.jobs.rows import Endings, job_record, job_where, read_durations, read_outcomes
-from service.jobs.submit import Submissions
+from service.jobs.submit import Submissions, product_of
 from service.jobs.sweep import Sweeper, forget_fits, forget_pages, forget_workflows
 from service.jobs.tables import EVENTS, JOBS, TOMBSTONES, WORKERS
 from service.settings import Settings
@@ -73,13 +73,8 @@ class TenantJobs:
     @available
     def product(self, fit_id: str, product: str) -> JobRecord | None:
         """Return a product of a fit, or None if there is none."""
-        which = (
-            JOBS.c.parent_id == fit_id,
-            JOBS.c.product == product,
-            JOBS.c.tenant == self._tenant,
-        )
         with self._database.connect() as connection:
-            return job_where(connection, *which)
+            return job_where(connection, *product_of(self._tenant, fit_id, product))
 
     @available
     def jobs(

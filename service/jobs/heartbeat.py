@@ -101,11 +101,9 @@ class Heartbeat:
                 connection.execute(
                     sa.insert(WORKERS).values(
                         executor_id=self._executor_id,
-                        machine=self._process.machine,
-                        pid=self._process.pid,
-                        pid_started=self._process.pid_started,
                         beat=0,
                         able=able,
+                        **self._process,
                     )
                 )
         if not self._has_queue:

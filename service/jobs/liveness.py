@@ -20,15 +20,6 @@ import sqlalchemy as sa
 from service.jobs.records import WorkerStatus
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProcessIdentity:
-    """Identifies a process uniquely across machines, even after its pid is reused."""
-
-    machine: str
-    pid: int
-    pid_started: str
-
-
 def this_machine() -> str:
     """Identify what shares a process table: host, boot and pid namespace."""
     boot = _read("/proc/sys/kernel/random/boot_id")
@@ -39,10 +30,13 @@ def this_machine() -> str:
     return f"{os.uname().nodename}/{boot}/{namespace}"
 
 
-def this_process() -> ProcessIdentity:
-    """Identify the calling process."""
+def this_process() -> dict[str, str | int]:
+    """Identify the calling process by columns of ``WORKERS``.
+
+    They are unique across machines, even after its pid is reused.
+    """
     pid = os.getpid()
-    return ProcessIdentity(machine=this_machine(), pid=pid, pid_started=_pid_started(pid))
+    return {"machine": this_machine(), "pid": pid, "pid_started": _pid_started(pid)}
 
 
 START_TIME_FIELD: Final = 19

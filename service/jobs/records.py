@@ -209,7 +209,7 @@ class DurationHistogram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EngineStatistics:
-    """The current queue, all that ever ended, and notices and crashes of the jobs that are kept."""
+    """The current queue, all that ever ended, and crashes of the jobs that are kept."""
 
     queued: int
     running: int
@@ -238,7 +238,10 @@ class Report:
 
 
 class Ending(StrEnum):
-    """How an attempt ended. ``CRASHED`` attempts are repeated up to a limit."""
+    """How an attempt ended: as a job does, but for the last two.
+
+    ``CRASHED`` attempts are repeated up to a limit.
+    """
 
     SUCCEEDED = "succeeded"
     FAILED = "failed"

@@ -89,12 +89,15 @@ class WorkerSlots:
     def vacant(self) -> int:
         """How many jobs may begin now; none once the slots are closed."""
         with self._changed:
-            return self._vacant()
+            if self._closed:
+                return 0
+            running = len(self._taken) + len(self._running)
+            return min(self._count - running, 2 * self._count - running - len(self._leaving))
 
     def await_vacancy(self) -> None:
         """Return when a slot is free, or when the slots are closed."""
         with self._changed:
-            self._changed.wait_for(lambda: self._closed or self._vacant() > 0)
+            self._changed.wait_for(lambda: self._closed or self.vacant() > 0)
 
     def await_next_look(self) -> None:
         """Return when it is time to look once more, after a look that found nothing.
@@ -123,12 +126,6 @@ class WorkerSlots:
             return self._changed.wait_for(
                 lambda: not (self._taken or self._running or self._leaving), timeout=within_s
             )
-
-    def _vacant(self) -> int:
-        if self._closed:
-            return 0
-        running = len(self._taken) + len(self._running)
-        return min(self._count - running, 2 * self._count - running - len(self._leaving))
 
     def _report_left(self) -> None:
         self._is_left = True

@@ -19,6 +19,7 @@ from service.jobs.blobs import (
     BlobsUnavailableError,
     StorageRefusedError,
     StorageUnusableError,
+    setting_of_storage,
 )
 from service.jobs.database import (
     locked,
@@ -28,6 +29,7 @@ from service.jobs.database import (
     write_fact,
 )
 from service.process.retrying import retry_with_pauses
+from service.settings import Settings
 
 STORAGE_FACT: Final = "storage"
 OFFERED_FACT: Final = "storage_offered"
@@ -39,21 +41,21 @@ retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage"
 
 @retry_while_database_is_away
 @retry_while_storage_is_away
-def take_storage(url: str, blobs: BlobStore, *, named: str, adopt: bool = False) -> None:
+def take_storage(settings: Settings, blobs: BlobStore, *, adopt: bool = False) -> None:
     """Take the storage for the database's from now on, unless it has one: then check it.
 
     A new database has none, so the first process that starts decides; its folder or bucket is made
     unless it is there, and must not be that of another database. With ``adopt`` the storage takes
-    the place of the one that the database had. ``named`` is the setting that names the storage,
-    with its value. The tables must be there. Waits for a database or a storage that does not
-    answer.
+    the place of the one that the database had. The tables must be there. Waits for a database or a
+    storage that does not answer.
 
     Raises
     ------
     StorageUnusableError
         If it is another database's, or refuses what it is asked for.
     """
-    with opened(url) as engine:
+    named = setting_of_storage(settings)
+    with opened(settings.system_database_url) as engine:
         with engine.connect() as connection:
             number = read_fact(connection, STORAGE_FACT)
         if number is None or adopt:

@@ -37,6 +37,11 @@ _OPTIONS_AT_FAULT: Final = problem("unusable-input", detail="", remedy="").type
 """The type of the problem of a product that would fail in the same way again."""
 
 
+def product_of(tenant: str, fit_id: str, product: str) -> tuple[sa.ColumnElement[bool], ...]:
+    """The condition that a job is this product of a tenant's fit."""
+    return (JOBS.c.parent_id == fit_id, JOBS.c.product == product, JOBS.c.tenant == tenant)
+
+
 class Submissions:
     """What one tenant submits; every method may raise :class:`EngineUnavailableError`.
 
@@ -110,7 +115,7 @@ class Submissions:
             if answered.outcome is not SubmitOutcome.ACCEPTED:
                 return answered
             # One that failed gives way.
-            connection.execute(sa.delete(JOBS).where(*self._product(fit_id, product)))
+            connection.execute(sa.delete(JOBS).where(*product_of(self._tenant, fit_id, product)))
             record = self._insert(connection, job, parent=fit_id, product=product)
             return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
 
@@ -141,7 +146,7 @@ class Submissions:
         return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
 
     def _answered_product(self, connection: sa.Connection, fit_id: str, product: str) -> Submission:
-        found = job_where(connection, *self._product(fit_id, product))
+        found = job_where(connection, *product_of(self._tenant, fit_id, product))
         if found is not None and not _may_succeed_yet(found):
             return Submission(outcome=SubmitOutcome.REPEATED, job=found)
         refused = self._no_room(connection)
@@ -176,13 +181,6 @@ class Submissions:
             .with_for_update()
         )
         return fit.scalar_one_or_none() is not None
-
-    def _product(self, fit_id: str, product: str) -> tuple[sa.ColumnElement[bool], ...]:
-        return (
-            JOBS.c.parent_id == fit_id,
-            JOBS.c.product == product,
-            JOBS.c.tenant == self._tenant,
-        )
 
     def _insert(
         self,

@@ -13,7 +13,6 @@ from service.jobs.blobs import (
     BlobStore,
     BlobsUnavailableError,
     open_blob_store,
-    setting_of_storage,
 )
 from service.jobs.database import prepare_database
 from service.jobs.storage_identity import take_storage
@@ -125,8 +124,7 @@ def settings(storage, _credentials, tmp_path) -> Settings:
 
 
 def take(settings: Settings) -> None:
-    blobs = open_blob_store(settings)
-    take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
+    take_storage(settings, open_blob_store(settings))
 
 
 def test_the_first_to_take_a_storage_makes_the_bucket(settings, storage):

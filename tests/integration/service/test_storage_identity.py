@@ -20,7 +20,6 @@ from tests.integration.service.test_refused_start import SERVE, WORKER, assert_r
 from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
-NAMED = "MAQUETTE_DATA_DIR=/somewhere"
 AT_ONCE = 8
 
 
@@ -33,7 +32,11 @@ def url(machine: Machine) -> str:
 
 
 def take(url: str, folder: Path, *, adopt: bool = False) -> None:
-    take_storage(url, LocalBlobStore(folder), named=NAMED, adopt=adopt)
+    if url.startswith("sqlite"):
+        settings = Settings(data_dir=Path(url.removeprefix("sqlite:///")).parent)
+    else:
+        settings = Settings(data_dir=folder, database_url=url)
+    take_storage(settings, LocalBlobStore(folder), adopt=adopt)
 
 
 def test_the_first_to_start_decides_and_whoever_has_another_storage_is_refused(
@@ -42,7 +45,7 @@ def test_the_first_to_start_decides_and_whoever_has_another_storage_is_refused(
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
     for _ in range(2):
         take(url, ours)
-    with pytest.raises(StorageUnusableError, match=NAMED) as refused:
+    with pytest.raises(StorageUnusableError, match="MAQUETTE_DATA_DIR=/") as refused:
         take(url, theirs)
     assert "\n" not in str(refused.value)
     assert "maquette serve --adopt-storage" in str(refused.value)

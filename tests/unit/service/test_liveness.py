@@ -68,7 +68,7 @@ def test_a_worker_of_this_machine_whose_process_is_gone_is_dead_at_once():
     process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     here = this_process()
     stat = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
-    worker = row("a", 5, machine=here.machine, pid=process.pid, started=stat[19])
+    worker = row("a", 5, machine=here["machine"], pid=process.pid, started=stat[19])
     watch = WorkerWatch(dead_after_s=DEAD_AFTER_S)
     assert watch.alive([worker]) == {"a"}
     process.kill()
@@ -81,7 +81,7 @@ def test_a_worker_of_this_machine_whose_process_is_gone_is_dead_at_once():
 
 def test_a_process_that_took_over_the_pid_is_not_the_worker():
     here = this_process()
-    impostor = row("a", 5, machine=here.machine, pid=here.pid, started="1")
+    impostor = row("a", 5, machine=here["machine"], pid=here["pid"], started="1")
     assert WorkerWatch(dead_after_s=DEAD_AFTER_S).alive([impostor]) == set()
 
 
