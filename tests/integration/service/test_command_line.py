@@ -48,7 +48,7 @@ def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tm
     printed = capsys.readouterr().out
     assert "waist girth" in printed
     assert f"{FAKE_WAIST:.1f}" in printed
-    assert "focal_length_px" in printed
+    assert "`height_m`" in printed
 
 
 def test_a_fit_without_a_service_writes_its_measurements_as_a_table(tmp_path):
@@ -175,7 +175,7 @@ def test_keys_are_those_of_the_data_folder_that_is_named(tmp_path, capsys):
         with pytest.raises(SystemExit) as ended:
             main(["keys", *action, "--data-dir", str(tmp_path / "shop")])
         assert ended.value.code == 0
-    assert " shop fits created" in capsys.readouterr().out
+    assert " shop created" in capsys.readouterr().out
     assert (tmp_path / "shop" / "maquette.sqlite").exists()
 
 
