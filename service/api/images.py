@@ -33,7 +33,7 @@ from service.api.storage import (
     writing,
 )
 from service.jobs.blobs import BlobMissingError, BlobsUnavailableError
-from service.jobs.images import ImageQuotaError, ImageRecord, KeptImage, NewImage
+from service.jobs.images import ImageQuotaError, ImageRecord, NewImage
 from service.jobs.inputs import IMAGE
 from service.jobs.records import StoredBlob
 from service.submissions.refusal import refused_field
@@ -75,10 +75,10 @@ async def upload_image(request: Request, response: Response, context: Context) -
     """
     (content,) = (await read_form(request, _PARTS))[IMAGE]
     with storing():
-        kept = await with_blobs(context.blobs, _keep, context, content)
-    response.status_code = 201 if kept.is_new else 200
-    response.headers["Location"] = f"{PATH}/{kept.record.id}"
-    return _represent(kept.record)
+        kept, is_new = await with_blobs(context.blobs, _keep, context, content)
+    response.status_code = 201 if is_new else 200
+    response.headers["Location"] = f"{PATH}/{kept.id}"
+    return _represent(kept)
 
 
 @ROUTER.get(
@@ -169,14 +169,15 @@ def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
     )
 
 
-def _keep(context: ApiContext, content: bytes) -> KeptImage:
+def _keep(context: ApiContext, content: bytes) -> tuple[ImageRecord, bool]:
+    """Keep a picture; returns its record, and whether it is new."""
     header = check_picture(
         "image", content, max_pixels=context.settings.max_pixels, read=context.read_header
     )
     image_id = hashlib.sha256(content).hexdigest()
     earlier = context.images.renew(image_id)
     if earlier is not None:
-        return KeptImage(record=earlier, is_new=False)
+        return earlier, False
     if not context.disk.has_room_for(len(content)):
         raise disk_full()
     scope = str(uuid4())
@@ -200,7 +201,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
         focal_length_35mm=header.focal_length_35mm,
     )
     kept = context.images.keep(new)
-    if kept is None or not kept.is_new:
+    if kept is None or kept.scope != scope:
         erase_at_once(context.blobs, scope)
     if kept is None:
         raise problem_error(
@@ -209,7 +210,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
             detail="The upload took too long and was given up.",
             remedy="Post the picture again.",
         )
-    return kept
+    return kept, kept.scope == scope
 
 
 def _no_quota(error: ImageQuotaError) -> ProblemError:

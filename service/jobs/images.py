@@ -44,14 +44,6 @@ class ImageRecord(NewImage):
     expires_at: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KeptImage:
-    """The picture, and whether it has just been stored or was there already."""
-
-    record: ImageRecord
-    is_new: bool
-
-
 class ImageQuotaError(Exception):
     """There is no room for this picture besides the tenant's others; the message says how many."""
 
@@ -114,8 +106,8 @@ class TenantImages:
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
-    def keep(self, image: NewImage) -> KeptImage | None:
-        """Keep a picture whose scope was reserved, or return the same one kept before.
+    def keep(self, image: NewImage) -> ImageRecord | None:
+        """Keep a picture whose scope was reserved, or return the same one kept in another before.
 
         None if its scope was considered abandoned and has been erased meanwhile.
         """
@@ -169,20 +161,20 @@ class TenantImages:
         )
         return None if row is None else _record(row)
 
-    def _keep(self, image: NewImage) -> KeptImage | None:
+    def _keep(self, image: NewImage) -> ImageRecord | None:
         now = time.time()
         with self._database.begin() as connection:
             # One that has expired may not have been swept yet.
             _forget(connection, *self._own(image.id), IMAGES.c.expires_at <= now)
             earlier = self._renew(connection, image.id)
             if earlier is not None:
-                return KeptImage(record=earlier, is_new=False)
+                return earlier
             if not take_out(connection, image.scope):
                 return None
             values: dict[str, Any] = asdict(image)
             values |= {"created_at": now, "expires_at": now + self._retention_s}
             connection.execute(sa.insert(IMAGES).values(tenant=self._tenant, **values))
-        return KeptImage(record=ImageRecord(**values), is_new=True)
+        return ImageRecord(**values)
 
 
 def _forget(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> Sequence[str]:

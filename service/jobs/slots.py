@@ -30,9 +30,7 @@ class WorkerSlots:
         self._is_left = False
         self._closed = False
 
-    def keep_filled(
-        self, begin_waiting_jobs: Callable[[], bool], *, fault_pause_s: float = FAULT_PAUSE_S
-    ) -> None:
+    def keep_filled(self, begin_waiting_jobs: Callable[[], bool]) -> None:
         """Begin jobs whenever a slot is free, until the slots are closed.
 
         ``begin_waiting_jobs`` returns whether any waited. Whatever it raises is logged, and it is
@@ -46,7 +44,7 @@ class WorkerSlots:
                 any_waited = begin_waiting_jobs()
             except Exception:
                 LOG.exception("Waiting jobs could not be looked for; tried again.")
-                time.sleep(fault_pause_s)
+                time.sleep(FAULT_PAUSE_S)
                 any_waited = False
             if not any_waited:
                 self.await_next_look()

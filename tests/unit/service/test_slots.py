@@ -43,7 +43,10 @@ def test_jobs_take_slots_when_they_are_claimed_and_free_them_when_they_end():
     assert (slots.vacant(), set(slots.held())) == (2, set())
 
 
-def test_a_look_that_fails_is_logged_and_made_again(caplog: pytest.LogCaptureFixture):
+def test_a_look_that_fails_is_logged_and_made_again(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("service.jobs.slots.FAULT_PAUSE_S", 0.0)
     slots = WorkerSlots(1, poll_s=0.01)
     looks: list[int] = []
 
@@ -54,7 +57,7 @@ def test_a_look_that_fails_is_logged_and_made_again(caplog: pytest.LogCaptureFix
         slots.close()
         return False
 
-    slots.keep_filled(look, fault_pause_s=0.0)
+    slots.keep_filled(look)
     assert looks == [0, 1]
     assert "the data folder is away" in caplog.text
 
