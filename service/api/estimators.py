@@ -14,7 +14,7 @@ from service.api.problems import ProblemError
 from service.compute import questions
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
 from service.compute.messages import DoneMessage, ProblemMessage, TaskMessage
-from service.compute.questions import FILE, QUESTION, BodyTask, ConversionTask
+from service.compute.questions import FILE, QUESTION, ConversionTask
 from service.compute.tasks import Parts
 from service.process.logs import current_log_context
 from service.submissions.refusal import RefusedError
@@ -54,18 +54,8 @@ class Estimators:
         name: str,
         question: BaseModel | None,
         file: bytes = b"",
-        *,
-        patient: bool = True,
-        label: str | None = None,
     ) -> Parts:
         """Ask a question of :mod:`service.compute.questions`, and return the parts of the answer.
-
-        Parameters
-        ----------
-        patient
-            Whether it waits where all estimators are busy.
-        label
-            What metrics call it; else its name.
 
         Raises
         ------
@@ -81,7 +71,6 @@ class Estimators:
             task=name,
             parts=tuple(parts),
             log_context=dict(current_log_context()),
-            patient=patient,
         )
         started = time.monotonic()
         outcome = "failed"
@@ -100,7 +89,7 @@ class Estimators:
                     raise ProblemError(FAILED)
         finally:
             self._metrics.count_estimate(
-                question=label or name, outcome=outcome, seconds=time.monotonic() - started
+                question=name, outcome=outcome, seconds=time.monotonic() - started
             )
 
     async def convert(self, glb: bytes, ending: str) -> bytes:
@@ -111,16 +100,6 @@ class Estimators:
     async def jpeg(self, image: bytes) -> bytes:
         """Write an encoded picture as a JPEG, upright; raises as :meth:`answer` does."""
         return (await self.answer(questions.JPEG, None, image))[FILE]
-
-    async def refuse_nobody(self, task: BodyTask) -> None:
-        """Raise :class:`service.submissions.refusal.RefusedError` if no body has what is known.
-
-        If no estimator is ready nothing is checked, and the caller finds out later.
-        """
-        try:
-            await self.answer(questions.BODY, task, patient=False, label="known_person")
-        except ProblemError:
-            return
 
 
 def _raised(reason: Problem) -> RefusedError | ProblemError:

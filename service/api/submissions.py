@@ -12,7 +12,6 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.fit import MOST_VIEWS, FitRequest
 from api_schemas.jobs import Fit, WebhookTarget
 from api_schemas.problems import Problem, problem
-from api_schemas.questions import BodyRequest
 from service.api.context import ApiContext, Context
 from service.api.events import Prefer, wait_for_end
 from service.api.fits import FITS, POLL_AFTER_S, fit_path, represent
@@ -29,7 +28,6 @@ from service.api.requests import (
     read_json_or_form,
 )
 from service.api.storage import disk_full, erase_at_once, store, storing, with_blobs, writing
-from service.compute.questions import BodyTask
 from service.jobs.inputs import IMAGE, MASK, SentPicture
 from service.jobs.notices import target_fault
 from service.jobs.records import (
@@ -194,32 +192,16 @@ async def _accept(
     ------
     ProblemError
         If the fit is not accepted.
-    RefusedError
-        If nobody has the measurements; this is asked only of a new fit.
     """
     fit_id = str(uuid4())
     with storing():
         # From here on the fit's scope is erased automatically unless the fit is accepted.
         submission = await writing(_reserve, context, fit_id, checked, key)
         if submission.outcome is SubmitOutcome.ACCEPTED:
-            await _refuse_nobody(context, checked.request)
             submission = await with_blobs(
                 context.blobs, _store, context, fit_id, checked, webhook, key
             )
     return accepted_job(submission)
-
-
-async def _refuse_nobody(context: ApiContext, asked: FitRequest) -> None:
-    """Refuse early what the fit would be refused for: measurements that no body combines."""
-    if not asked.measurements and asked.weight_kg is None:
-        return
-    known = BodyRequest(
-        gender=asked.gender,
-        height_m=asked.height_m,
-        weight_kg=asked.weight_kg,
-        measurements=asked.measurements,
-    )
-    await context.estimators.refuse_nobody(BodyTask(request=known, with_glb=False))
 
 
 def _idempotency(key: str | None, *parts: bytes) -> Idempotency | None:

@@ -45,9 +45,6 @@ LOG: Final = logging.getLogger(__name__)
 MOST_WAITING: Final = 20
 """Questions that may wait per child: about two seconds' worth. More are told to come back."""
 
-MOMENT_S: Final = 0.5
-"""Wait for a child of a question that can do without an answer."""
-
 READY_WITHIN_S: Final = 5.0
 """Wait of a question for a child that is being started, as while the server loads."""
 
@@ -109,20 +106,13 @@ class QuickLane:
         self._room = threading.BoundedSemaphore(capacity(children))
 
     def answer(self, question: TaskMessage, parts: Parts) -> Received:
-        """Return what a child answers, or the problem why none does.
-
-        Who is not ``patient`` waits only briefly for a busy child, or one that is starting.
-        """
+        """Return what a child answers, or the problem why none does."""
         if not self._room.acquire(blocking=False):
             return _told(UNAVAILABLE)
         try:
-            place = self._idle.get(timeout=None if question.patient else MOMENT_S)
-        except queue.Empty:
-            return _told(UNAVAILABLE)
-        else:
-            within_s = self._ready_within_s if question.patient else MOMENT_S
+            place = self._idle.get()
             try:
-                return place.answer(question, parts, ready_within_s=within_s)
+                return place.answer(question, parts, ready_within_s=self._ready_within_s)
             finally:
                 self._idle.put(place)
         finally:
@@ -226,7 +216,7 @@ def asking(address: str) -> Ask:
     """Ask at this address, where an owner answers or soon does."""
 
     def ask(question: TaskMessage, parts: Parts) -> Received:
-        deadline = time.monotonic() + (READY_WITHIN_S if question.patient else 0.0)
+        deadline = time.monotonic() + READY_WITHIN_S
         while True:
             try:
                 with Client(address, family="AF_UNIX") as connection:

@@ -28,16 +28,11 @@ class _Header(WireModel):
 
 
 class TaskMessage(_Header):
-    """Compute this, of the table of tasks.
-
-    ``patient`` is whether it may wait until others are done; ``log_context`` goes into every line
-    that is logged meanwhile.
-    """
+    """Compute this, of the table of tasks; every line logged meanwhile has ``log_context``."""
 
     kind: Literal["task"] = "task"
     task: str
     log_context: dict[str, str] = Field(default_factory=dict[str, str])
-    patient: bool = True
 
 
 class ProgressMessage(_Header):

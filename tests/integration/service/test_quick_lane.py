@@ -68,14 +68,10 @@ def estimators(gate: Path) -> set[int]:
     return {each.pid for each in processes_with(GATE, gate) if each.name == SETUP.name}
 
 
-def asked(
-    lane: QuickLane, *, with_glb: bool = False, patient: bool = True, **script: float
-) -> Received:
+def asked(lane: QuickLane, *, with_glb: bool = False, **script: float) -> Received:
     request = BodyRequest(gender=Gender.MALE, measurements=dict(script))
     question = BodyTask(request=request, with_glb=with_glb).model_dump_json().encode()
-    return lane.answer(
-        TaskMessage(task=BODY, parts=(QUESTION,), patient=patient), {QUESTION: question}
-    )
+    return lane.answer(TaskMessage(task=BODY, parts=(QUESTION,)), {QUESTION: question})
 
 
 def trouble(received: Received) -> str:
@@ -174,20 +170,3 @@ def test_as_many_are_answered_at_once_as_there_are_children_and_too_many_are_tur
     for caller in callers:
         caller.join()
     assert sum(isinstance(each.message, DoneMessage) for each in answers) == capacity
-
-
-def test_who_is_not_patient_does_not_wait_for_busy_children(lane, gate):
-    held = [
-        threading.Thread(target=answering_pid, args=(lane,), kwargs={"gate": 1.0}) for _ in range(2)
-    ]
-    for caller in held:
-        caller.start()
-    # Until both hold a child there is one to answer.
-    eventually(
-        lambda: isinstance(asked(lane, patient=False).message, ProblemMessage),
-        what="both children are busy",
-    )
-    gate.touch()
-    for caller in held:
-        caller.join()
-    assert isinstance(asked(lane, patient=False).message, DoneMessage)

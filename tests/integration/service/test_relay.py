@@ -28,8 +28,8 @@ TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=True)
 PARTS = {QUESTION: TASK.model_dump_json().encode()}
 
 
-def asked(ask: Ask, *, patient: bool = True) -> Received:
-    return ask(TaskMessage(task=BODY, parts=tuple(PARTS), patient=patient), PARTS)
+def asked(ask: Ask) -> Received:
+    return ask(TaskMessage(task=BODY, parts=tuple(PARTS)), PARTS)
 
 
 def answered(address: str) -> Received:
@@ -71,12 +71,9 @@ def test_a_question_is_answered_with_its_file(address: str):
     assert answered(address).parts[FILE] == GLB
 
 
-def test_who_is_patient_waits_a_while_for_an_owner_and_others_do_not(
-    address: str, monkeypatch: pytest.MonkeyPatch
-):
+def test_an_owner_is_waited_for_a_while(address: str, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(lanes, "READY_WITHIN_S", 0.3)
     began = time.monotonic()
-    assert_unavailable(asked(asking(address), patient=False))
     assert_unavailable(asked(asking(address)))
     assert time.monotonic() - began >= 0.3
 

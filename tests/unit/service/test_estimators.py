@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from api_schemas.problems import FieldProblem, Problem, field_problem
+from api_schemas.problems import Problem
 from api_schemas.questions import BodyRequest, PointsRequest
 from fitter.vocabulary.choices import Gender
 from service.api.estimators import Estimators
@@ -15,14 +15,9 @@ from service.compute.messages import DoneMessage, ProblemMessage, Received, Task
 from service.compute.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.compute.tasks import Parts
 from service.process.data_folder import Disk
-from service.submissions.refusal import RefusedError
 from service.submissions.submission import no_detector
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
-NOBODY = field_problem(
-    "unusable-input",
-    FieldProblem(field="weight_kg", code="contradictory-measurements", reason="No.", remedy="Yes."),
-)
 
 
 class NoEngine:
@@ -73,16 +68,6 @@ def test_a_detector_that_is_not_there_is_told_with_what_to_install():
     told = caught.value.problem
     assert (told.status, told.code) == (404, "detector-not-installed")
     assert "pip install" in told.remedy
-
-
-def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():
-    with pytest.raises(RefusedError):
-        asyncio.run(troubled(NOBODY).refuse_nobody(TASK))
-    for problem in (UNAVAILABLE, TIMED_OUT, FAILED):
-        estimator = Troubled(problem)
-        asyncio.run(Estimators(estimator, METRICS, estimators=1).refuse_nobody(TASK))
-        (question,) = estimator.asked
-        assert not question.patient
 
 
 def test_a_file_goes_along_and_comes_back():
