@@ -29,10 +29,6 @@ ROUTER: Final = APIRouter(tags=["health"])
 ANSWER_WITHIN_S: Final = 1.5
 """The time limit of a look; probes wait for two seconds and more."""
 
-SERVED_AGAIN_S: Final = 0.1
-"""The time for which an answer is given again without another look: whoever asks without a pause
-costs ten looks a second, each a write to database and storage."""
-
 SILENT: Final = {
     "database": ("database-unavailable", "The database has not answered for {seconds:.0f} s."),
     "storage": ("storage-unavailable", "The storage has not answered for {seconds:.0f} s."),
@@ -100,16 +96,13 @@ class Readiness:
         check: Callable[[Look], Health],
         *,
         answer_within_s: float = ANSWER_WITHIN_S,
-        served_again_s: float = SERVED_AGAIN_S,
         monotonic: Callable[[], float] = time.monotonic,
     ) -> None:
         self._check = check
         self._answer_within_s = answer_within_s
-        self._served_again_s = served_again_s
         self._monotonic = monotonic
         self.last: Look | None = None
         """The look that is being made, or was made last."""
-        self._ended = 0.0
 
     async def ready(self) -> Health:
         """Return within two seconds, whatever database and storage do.
@@ -134,14 +127,10 @@ class Readiness:
         )
 
     def _current(self) -> Look:
-        """The look that is being made, the last one if it is recent, or a new one."""
-        now = self._monotonic()
-        last = self.last
-        if last is not None and (
-            not last.answer.done() or now - self._ended < self._served_again_s
-        ):
-            return last
-        self.last = Look(began=now)
+        """The look that is being made, or a new one."""
+        if self.last is not None and not self.last.answer.done():
+            return self.last
+        self.last = Look(began=self._monotonic())
         threading.Thread(
             target=self._make,
             args=(self.last, asyncio.get_running_loop()),
@@ -160,7 +149,6 @@ class Readiness:
             loop.call_soon_threadsafe(self._end, look, outcome)
 
     def _end(self, look: Look, outcome: Health | Exception) -> None:
-        self._ended = self._monotonic()
         if isinstance(outcome, Exception):
             look.answer.set_exception(outcome)
             # Read here, so that an answer nobody waits for any more is not logged as forgotten.

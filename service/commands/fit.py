@@ -62,7 +62,7 @@ def fit_locally(
     """Fit, write all files to a folder, print the measurements; return the exit status."""
     made = told(
         lambda: fitted(
-            read_request(request),
+            parsed(FitRequest, request.read_bytes(), whole=request.name, called=request.name),
             [SentPicture(picture.read_bytes(), None) for picture in pictures],
             pipeline=pipeline,
         )
@@ -78,17 +78,6 @@ def fit_locally(
     print_result(result)
     print(f"{len(files)} files lie in {output}.")
     return 0
-
-
-def read_request(file: Path) -> FitRequest:
-    """Read a request from a file.
-
-    Raises
-    ------
-    RefusedError
-        If it is not of this type.
-    """
-    return parsed(FitRequest, file.read_bytes(), whole=file.name, called=file.name)
 
 
 def told(work: Callable[[], Made]) -> Made | None:

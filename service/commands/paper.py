@@ -1,7 +1,7 @@
 """``maquette paper``: the paper's figures and its table, drawn from fits made here and now."""
 
 import argparse
-import io
+import json
 from pathlib import Path
 from typing import Final
 
@@ -13,14 +13,15 @@ from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.reproduction.drawing import Subject, reproduce, table_markdown
 from fitter.reproduction.panels import Figure
-from service.commands.fit import add_output, read_request, told
+from service.commands.fit import add_output, told
 from service.compute import translate
 from service.compute.kernels import settle_folders
 from service.compute.tasks import UnusableInputError
-from service.demo_data.sample import load_sample, load_subject
+from service.demo_data.sample import FOLDER, load_sample
 from service.jobs.inputs import SentPicture
 from service.settings import Settings
 from service.startup import UNUSABLE, run_command
+from service.submissions.refusal import parsed
 from service.submissions.submission import check_submission
 
 _INTRODUCTION: Final = """# The paper, reproduced
@@ -63,23 +64,28 @@ def run(parsed: argparse.Namespace) -> int:
     return run_command("paper", draw)
 
 
-def packaged_pictures(settings: Settings) -> tuple[fitter_request.FitRequest, Subject]:
-    """The portrait and the subject that ship with the package."""
-    sample, subject = load_sample(), load_subject()
-    with np.load(io.BytesIO(subject.bodies), allow_pickle=False) as bodies:
-        step_m = float(bodies["step_m"])
-        true = {name: step_m * bodies[name] for name in ("canonical", *subject.pictures)}
+def packaged_pictures(
+    settings: Settings, folder: Path = FOLDER / "subject"
+) -> tuple[fitter_request.FitRequest, Subject]:
+    """The portrait and the subject that ship with the package.
 
-    def packaged(image: bytes, request: bytes) -> fitter_request.FitRequest:
-        return _request(image, FitRequest.model_validate_json(request), settings)
+    ``bodies.npz`` has the true vertices as whole numbers of ``step_m``: ``canonical`` at rest, and
+    of each pose under its name, in the camera frame.
+    """
+    sample, document = load_sample(), json.loads((folder / "subject.json").read_text())
+    asked = document["requests"]
+    pictures = {name: folder / f"{name}.jpg" for name in asked}
+    with np.load(folder / "bodies.npz", allow_pickle=False) as bodies:
+        true = {name: float(bodies["step_m"]) * bodies[name] for name in ("canonical", *asked)}
 
-    return packaged(sample.image, sample.request), Subject(
+    return _request(sample.image, sample.request, settings), Subject(
         requests={
-            name: packaged(each.image, each.request) for name, each in subject.pictures.items()
+            name: _request(picture.read_bytes(), json.dumps(asked[name]).encode(), settings)
+            for name, picture in pictures.items()
         },
-        posed={name: true[name] for name in subject.pictures},
+        posed={name: true[name] for name in asked},
         canonical=true["canonical"],
-        measurements=subject.measurements,
+        measurements=document["measurements"],
     )
 
 
@@ -90,7 +96,7 @@ def _drawn(output: Path, painting: tuple[Path, Path] | None, settings: Settings)
     given = None
     if painting is not None:
         picture, request = painting
-        given = _request(picture.read_bytes(), read_request(request), settings)
+        given = _request(picture.read_bytes(), request.read_bytes(), settings)
     output.mkdir(parents=True, exist_ok=True)
     parts = [_INTRODUCTION]
 
@@ -107,8 +113,9 @@ def _drawn(output: Path, painting: tuple[Path, Path] | None, settings: Settings)
     return "\n".join([*parts, _TABLE_NOTE, *map(table_markdown, tables)])
 
 
-def _request(picture: bytes, asked: FitRequest, settings: Settings) -> fitter_request.FitRequest:
+def _request(picture: bytes, request: bytes, settings: Settings) -> fitter_request.FitRequest:
     """Check a request as the service does, and translate it."""
     sent = [SentPicture(picture, None)]
+    asked = parsed(FitRequest, request, whole="request", called="request")
     checked = check_submission(asked, sent, max_pixels=settings.max_pixels)
     return translate.fit_request(checked.request, sent, max_pixels=settings.max_pixels)

@@ -32,7 +32,11 @@ def write_subject(folder: Path = FOLDER / "subject") -> None:
         case = CASES[f"{PERSON}_{kind.value}"]
         picture = (PICTURES_FOLDER / f"{case.name}.jpg").read_bytes()
         (folder / f"{kind.value}.jpg").write_bytes(picture)
-        requests[kind.value] = read_case(case).request
+        request = dict(read_case(case).request)
+        view = {
+            name: request.pop(name) for name in ("points", "focal_length_px") if name in request
+        }
+        requests[kind.value] = request | {"views": [view]}
         staged = stage(person, case)
         posed[kind.value] = _steps(staged.in_camera(staged.body))
     truth = true_body(person)

@@ -14,7 +14,6 @@ from fitter.reproduction.drawing import (
     table_markdown,
 )
 from service.commands.paper import packaged_pictures
-from service.demo_data.sample import load_subject
 from service.settings import Settings
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import PICTURES_FOLDER, read_case
@@ -42,14 +41,14 @@ def test_a_table_has_a_row_for_each_pose():
 def test_the_subject_is_one_on_whom_nothing_was_chosen(tmp_path):
     assert PEOPLE[PERSON].half is Half.REPORTING
     write_subject(tmp_path)
-    packaged, anew = load_subject(), load_subject(tmp_path)
-    assert {name: each.image for name, each in packaged.pictures.items()} == {
-        name: (PICTURES_FOLDER / f"{PERSON}_{name}.jpg").read_bytes() for name in anew.pictures
+    (_, packaged), (_, anew) = (packaged_pictures(Settings(), *each) for each in ((), (tmp_path,)))
+    assert {name: each.views[0].image for name, each in packaged.requests.items()} == {
+        name: (PICTURES_FOLDER / f"{PERSON}_{name}.jpg").read_bytes() for name in anew.requests
     }
     assert packaged.measurements == pytest.approx(dict(anew.measurements), abs=1e-6)
 
 
-@pytest.mark.parametrize("pose", load_subject().pictures)
+@pytest.mark.parametrize("pose", packaged_pictures(Settings())[1].requests)
 def test_the_true_bodies_are_those_that_the_pictures_show(pose: str):
     _, subject = packaged_pictures(Settings())
     (view,) = subject.requests[pose].views

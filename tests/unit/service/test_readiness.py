@@ -48,9 +48,7 @@ class Clock:
 
 
 def readiness(parts: Parts, clock: Clock, *, answer_within_s: float = PATIENCE_S) -> Readiness:
-    return Readiness(
-        parts.check, answer_within_s=answer_within_s, served_again_s=1.0, monotonic=clock
-    )
+    return Readiness(parts.check, answer_within_s=answer_within_s, monotonic=clock)
 
 
 def played(scene: Coroutine[Any, Any, None]) -> None:
@@ -93,21 +91,6 @@ def test_a_part_that_does_not_answer_in_time_is_named_and_not_asked_again_meanwh
         while not (last := asked.last) or not last.answer.done():
             await asyncio.sleep(0)
         assert (await asked.ready()).workers == 1
-
-    played(scene())
-
-
-def test_an_answer_is_given_again_for_a_second_and_then_looked_for_anew():
-    parts = Parts()
-
-    async def scene() -> None:
-        clock = Clock()
-        asked = readiness(parts, clock)
-        assert (await asked.ready()).workers == 1
-        clock.now += 0.9
-        assert (await asked.ready()).workers == 1
-        clock.now += 0.2
-        assert (await asked.ready()).workers == 2
 
     played(scene())
 
