@@ -13,9 +13,9 @@ from typing import Final
 
 from service.compute.lanes import SOCKET, asking
 from service.compute.models import check_detector, check_models
-from service.jobs.blobs import BlobStore, open_blob_store
+from service.jobs.blobs import BlobStore
 from service.jobs.database import open_database, prepare_database
-from service.jobs.storage_identity import take_storage
+from service.jobs.storage_identity import open_blob_store, take_storage
 from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.listener import Listener, listen
 from service.process.supervisor import PYTHON, SupervisedProcess

@@ -17,7 +17,7 @@ from service.compute.kernels import settle_folders
 from service.compute.lanes import QuickLane, answer_questions
 from service.compute.models import check_detector, check_models, read_models
 from service.compute.tasks import child_setup
-from service.jobs.blobs import open_blob_store
+from service.jobs.storage_identity import open_blob_store
 from service.process.confinement import warn_of_weakness
 from service.process.data_folder import prepare_data_folder
 from service.process.supervisor import SAFE_PATH_VARIABLE

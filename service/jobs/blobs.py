@@ -11,9 +11,8 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Final, Protocol, TypeVar
-from urllib.parse import urlsplit
 
-from service.settings import PREFIX, SettingError, Settings
+from service.settings import PREFIX, Settings
 
 T = TypeVar("T")
 
@@ -166,26 +165,3 @@ def setting_of_storage(settings: Settings) -> str:
     if settings.blob_url is None:
         return f"{PREFIX}DATA_DIR={settings.data_dir}"
     return f"{PREFIX}BLOB_URL={settings.blob_url}"
-
-
-def open_blob_store(settings: Settings) -> BlobStore:
-    """Open the store named by ``blob_url``: ``s3://bucket/prefix``, or the data folder if unset.
-
-    Raises
-    ------
-    SettingError
-        If S3 is asked for and its client is not installed.
-    """
-    # Only here: the stores import the errors above, and S3's client, an extra, takes a third of a
-    # second to load.
-    if settings.blob_url is None:
-        from service.jobs.blobs_local import LocalBlobStore
-
-        return LocalBlobStore(settings.blob_dir)
-    url = urlsplit(settings.blob_url)
-    try:
-        from service.jobs.blobs_s3 import S3BlobStore
-    except ImportError as error:
-        message = "S3 needs the client; install it with: pip install 'maquette[s3]'"
-        raise SettingError(message, name="blob_url", value=settings.blob_url) from error
-    return S3BlobStore(bucket=url.netloc, prefix=url.path)

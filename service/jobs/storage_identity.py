@@ -10,6 +10,7 @@ import hashlib
 import uuid
 from collections.abc import Iterator
 from typing import Final
+from urllib.parse import urlsplit
 
 import sqlalchemy as sa
 
@@ -21,6 +22,7 @@ from service.jobs.blobs import (
     StorageUnusableError,
     setting_of_storage,
 )
+from service.jobs.blobs_local import LocalBlobStore
 from service.jobs.database import (
     locked,
     opened,
@@ -29,7 +31,7 @@ from service.jobs.database import (
     write_fact,
 )
 from service.process.retrying import retry_with_pauses
-from service.settings import Settings
+from service.settings import SettingError, Settings
 
 STORAGE_FACT: Final = "storage"
 OFFERED_FACT: Final = "storage_offered"
@@ -37,6 +39,26 @@ SCOPE: Final = "storage-of"
 """Where the number is kept; scopes of jobs are other names, and are all that is ever erased."""
 
 retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
+
+
+def open_blob_store(settings: Settings) -> BlobStore:
+    """Open the store named by ``blob_url``: ``s3://bucket/prefix``, or the data folder if unset.
+
+    Raises
+    ------
+    SettingError
+        If S3 is asked for and its client is not installed.
+    """
+    if settings.blob_url is None:
+        return LocalBlobStore(settings.blob_dir)
+    url = urlsplit(settings.blob_url)
+    try:
+        # Only here: the client is an extra, and takes a third of a second to load.
+        from service.jobs.blobs_s3 import S3BlobStore
+    except ImportError as error:
+        message = "S3 needs the client; install it with: pip install 'maquette[s3]'"
+        raise SettingError(message, name="blob_url", value=settings.blob_url) from error
+    return S3BlobStore(bucket=url.netloc, prefix=url.path)
 
 
 @retry_while_database_is_away

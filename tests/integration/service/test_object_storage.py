@@ -12,10 +12,9 @@ from service.jobs.blobs import (
     BlobMissingError,
     BlobStore,
     BlobsUnavailableError,
-    open_blob_store,
 )
 from service.jobs.database import prepare_database
-from service.jobs.storage_identity import take_storage
+from service.jobs.storage_identity import open_blob_store, take_storage
 from service.settings import Settings
 from service.startup import run_command
 from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
