@@ -1,4 +1,4 @@
-"""What all wire types have in common."""
+"""Common parts of all wire types."""
 
 from typing import Annotated, LiteralString, cast
 

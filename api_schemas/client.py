@@ -27,7 +27,7 @@ from api_schemas.products import Product
 from api_schemas.results import FitResult
 
 _WAIT_S: Final = 30
-"""How long an answer about a product waits for its end."""
+"""Time that an answer about a product waits for the product's end, seconds."""
 
 _PAUSE_S: Final = 1.0
 _TIMEOUT_S: Final = 60.0
@@ -179,7 +179,7 @@ def _content(file: Content) -> bytes:
 
 
 def _read(kind: type[Model], answer: httpx.Response) -> Model:
-    """What a later version of the service has added is passed over."""
+    """The answer as a model; fields that a later version of the service has added are ignored."""
     return kind.model_validate_json(answer.content, extra="ignore")
 
 

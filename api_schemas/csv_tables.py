@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from api_schemas.results import Measurement
 
 FORMULAS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
-"""What a cell begins with that is a formula to some spreadsheet, full-width forms included."""
+"""First characters of cells that some spreadsheet takes for formulas, full-width ones included."""
 
 
 def models_csv(rows: Sequence[BaseModel], fields: Iterable[str]) -> bytes:

@@ -1,4 +1,4 @@
-"""What a caller asks for: a fit of one person to one to six pictures."""
+"""A caller's request: a fit of one person to one to six pictures."""
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self

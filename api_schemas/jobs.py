@@ -14,7 +14,7 @@ from api_schemas.problems import Problem
 
 
 class JobState(StrEnum):
-    """Where a job stands; the last four are final."""
+    """State of a job; the last four are final."""
 
     QUEUED = "queued"
     RUNNING = "running"
@@ -133,7 +133,7 @@ WebhookSecret = Annotated[str, AfterValidator(_usable_secret)]
 
 
 class WebhookTarget(WireModel):
-    """Where to send the notice of the fit's end.
+    """Destination of the notice of the fit's end.
 
     The address must be public: private, loopback and link-local ones are refused, ports other than
     443 and 80 as well, and redirects are not followed. Without a ``secret`` the service's own signs
@@ -156,7 +156,7 @@ class WebhookTarget(WireModel):
 
 
 class WebhookEventType(StrEnum):
-    """How the fit ended."""
+    """Outcome of the fit."""
 
     SUCCEEDED = "fit.succeeded"
     FAILED = "fit.failed"

@@ -20,7 +20,7 @@ _UNSEEN: Final = (
 )
 _SPACES: Final = r" \u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 PATTERN: Final = f"^[^{_UNSEEN}]*[^{_UNSEEN}{_SPACES}][^{_UNSEEN}]*$"
-"""What the OpenAPI document can say of labels in few characters."""
+"""Pattern of labels in the OpenAPI document: as much of the rule as few characters can say."""
 
 # Beyond that pattern: soft hyphens, fillers that look like spaces, marks of annotations,
 # music and languages, and what is no character.

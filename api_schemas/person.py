@@ -1,4 +1,4 @@
-"""Who is in the pictures, as a caller says it: gender, height, weight, measurements."""
+"""The person in the pictures, as a caller describes them: gender, height, weight, measurements."""
 
 from collections.abc import Mapping
 from difflib import get_close_matches
@@ -141,7 +141,7 @@ OTHER_WORDS: Final[Mapping[str, str]] = {
     "leg": "inseam",
     "mass": "weight",
 }
-"""What charts say, and what the names here have in its place."""
+"""Words used in charts, and the words that the names here have in their place."""
 
 _MOST_SUGGESTED: Final = 3
 
@@ -160,7 +160,7 @@ def suggested_names(unknown: str) -> tuple[str, ...]:
 
 
 def unknown_name_remedy(unknown: str) -> str:
-    """What to send in place of a name that there is not."""
+    """The remedy for a name that does not exist: what to send in its place."""
     suggested = suggested_names(unknown)
     if suggested:
         return f"Did you mean {' or '.join(suggested)}? MEASUREMENTS.md lists all names."

@@ -37,7 +37,7 @@ Visibility = Annotated[
 
 
 class PointSource(StrEnum):
-    """Who says where a point is: a person, or a detector that ``/v1/points`` asked."""
+    """Source of a point's position: a person, or a detector that ``/v1/points`` asked."""
 
     CLICK = "click"
     PROPOSAL = "proposal"

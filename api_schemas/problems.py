@@ -10,17 +10,17 @@ from api_schemas.base import WireModel
 PROBLEM_MEDIA_TYPE: Final = "application/problem+json"
 
 MOST_ERRORS: Final = 10
-"""How many errors a problem names."""
+"""Largest number of errors that a problem names."""
 
 LONGEST_NAME: Final = 100
-"""How many characters of a caller's words a problem repeats."""
+"""Largest number of characters of a caller's words that a problem repeats."""
 
 LONGEST_TEXT: Final = 1_000
 """"Use 'nose', 'left_eye', ..." names all points."""
 
 
 class FieldProblem(WireModel):
-    """What is wrong with one field, why, and what to do."""
+    """Problem with one field: what is wrong, why, and what to do."""
 
     field: str
     code: str

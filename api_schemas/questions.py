@@ -27,7 +27,7 @@ from fitter.vocabulary.remarks import Box, Remark
 
 
 class BodyRequest(Person):
-    """What is known of the person."""
+    """Known facts about the person."""
 
 
 class BodyEstimate(WireModel):
@@ -60,7 +60,7 @@ class ImageSize(WireModel):
 
 
 class InitialPoseRequest(Person, Lens):
-    """Who is in the picture, where the joints are, and how large the picture is."""
+    """The person in the picture, the places of the joints, and the size of the picture."""
 
     points: Points = Field(description=f"{POINTS_DESCRIPTION}.", examples=[POINTS_EXAMPLE])
     limb_facing: LimbFacings = Field(default_factory=dict[Limb, Facing])
@@ -92,7 +92,7 @@ class InitialPose(WireModel):
 
 
 class PointsRequest(Lens):
-    """What is said of a picture, and what is wanted of it; nothing needs to be said."""
+    """Known facts about a picture, and what is wanted of it; all of it may be left out."""
 
     image_id: ImageId | None = Field(
         default=None, description="The uploaded picture, where none comes with the request."
@@ -120,7 +120,7 @@ class PointsRequest(Lens):
 
 
 class PointsProposal(WireModel):
-    """Who is in the picture, where one of them has which point, and what is wrong with it.
+    """The people in the picture, the points of one of them, and what is wrong with the picture.
 
     Pixels of the picture as a browser shows it, of ``image_size``. ``persons`` are the boxes of
     what is seen of them (left, top, right, bottom), the largest and surest first; ``points`` are

@@ -1,4 +1,4 @@
-"""What a fit gives back: ``result.json``."""
+"""The result of a fit: ``result.json``."""
 
 from pydantic import Field
 
@@ -34,7 +34,7 @@ class CameraResult(WireModel):
 
 
 class TiltResult(WireModel):
-    """How the camera was held against gravity, as told by how the person stands.
+    """Tilt of the camera against gravity, inferred from how the person stands.
 
     In the camera frame (x right, y down, z along the view) up is (-sin roll cos pitch, -cos roll
     cos pitch, sin pitch). ``stance`` is the most probable kind, ``stances`` the probability of

@@ -1,4 +1,4 @@
-"""What the service says of itself: its root, its health, its body models."""
+"""The service's description of itself: its root, its health, its body models."""
 
 from typing import Literal
 

@@ -27,7 +27,7 @@ PREFIX: Final = "MAQUETTE_"
 
 DAY_S: Final = 86_400.0
 SHORTEST_PACE_S: Final = 0.01
-"""What is done more often than this takes a processor for itself."""
+"""Shortest interval of repeated work, seconds; shorter ones take a processor for themselves."""
 
 LONGEST_RETENTION_HOURS: Final = 87_600.0
 """Ten years."""
@@ -348,7 +348,7 @@ class Settings(BaseSettings):
 
     @property
     def database_file(self) -> Path:
-        """Where the embedded database is, if there is one."""
+        """Path of the embedded database, if there is one."""
         return self.data_dir.resolve() / "maquette.sqlite"
 
     @property
@@ -360,12 +360,12 @@ class Settings(BaseSettings):
 
     @property
     def tenant_queue_limit(self) -> int:
-        """How many jobs of one tenant may wait; the sole tenant's are all there are."""
+        """Number of jobs of one tenant that may wait; the sole tenant's are all there are."""
         return self.max_queued if self.authentication == "off" else self.max_queued_per_tenant
 
     @property
     def retention_s(self) -> float:
-        """How long an ended job is kept."""
+        """Time that an ended job is kept, seconds."""
         return self.retention_hours * 3600.0
 
     @property

@@ -1,4 +1,4 @@
-"""How every command starts and ends: unusable settings are reported in one line."""
+"""Start and end of every command: unusable settings are reported in one line."""
 
 import argparse
 import logging

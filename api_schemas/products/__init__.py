@@ -44,7 +44,7 @@ AnyProductOptions = (
     | Annotated[SizeOptions, Tag("[size]")]
     | Annotated[CompositionOptions, Tag("[composition]")]
 )
-"""What is asked for."""
+"""Options of a product of any kind."""
 
 AnyProductResult = Annotated[
     TextureResult
@@ -56,7 +56,7 @@ AnyProductResult = Annotated[
     | CompositionResult,
     Field(discriminator="kind"),
 ]
-"""What came of it."""
+"""Result of a product of any kind."""
 
 
 def _tag(value: Any) -> str | None:
@@ -78,7 +78,7 @@ _BY_KIND: Final = Discriminator(
 
 
 class ProductRequest(RootModel[Annotated[AnyProductOptions, _BY_KIND]]):
-    """What to make of a fit; ``kind`` says which fields there are."""
+    """Product to make of a fit; ``kind`` says which fields there are."""
 
     model_config = ConfigDict(frozen=True, strict=True, hide_input_in_errors=True)
 

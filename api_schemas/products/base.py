@@ -1,4 +1,4 @@
-"""What all kinds of products have in common on the wire."""
+"""Wire types common to all kinds of products."""
 
 from enum import StrEnum
 
@@ -8,7 +8,7 @@ from api_schemas.base import WireModel
 
 
 class ProductKind(StrEnum):
-    """What can be made of a fit."""
+    """Kind of product that can be made of a fit."""
 
     TEXTURE = "texture"
     POSE = "pose"
@@ -20,7 +20,7 @@ class ProductKind(StrEnum):
 
 
 class BodyColours(StrEnum):
-    """What a body wears: its picture with the light in it, the albedo found in it, or one colour.
+    """Colours of a body: its picture with the light in it, the albedo found in it, or one colour.
 
     ``plain`` is one colour for each vertex, blurred over centimetres where shading was fitted, and
     else one for all.
@@ -32,7 +32,7 @@ class BodyColours(StrEnum):
 
 
 class ProductOptions(WireModel):
-    """What is asked for."""
+    """Options of a product."""
 
     @property
     def part(self) -> str | None:
@@ -41,12 +41,12 @@ class ProductOptions(WireModel):
 
     @property
     def part_is_for(self) -> str | None:
-        """What the part is needed for, in words that go on from "which"; None if it is not."""
+        """Purpose of the part, in words that go on from "which"; None if the part is not needed."""
         return None
 
 
 class ProductResult(WireModel):
-    """What there is to say of a product besides its files."""
+    """Facts about a product, besides its files."""
 
     # What is always answered is said to be: ``kind`` tells one from another.
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)

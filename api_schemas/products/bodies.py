@@ -226,7 +226,7 @@ class AnimationResult(ProductResult):
 
 
 class Exaggerated(StrEnum):
-    """What a caricature multiplies."""
+    """Shape coefficients that a caricature multiplies."""
 
     COEFFICIENT = "coefficient"
     LOOKS = "looks"

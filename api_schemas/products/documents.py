@@ -55,7 +55,7 @@ _RANGE: Final = re.compile(r"(\d{1,3}(?:\.\d{1,3})?)-(\d{1,3}(?:\.\d{1,3})?)")
 
 BodyRange = tuple[float, float]
 SizeChart = Mapping[str, Mapping[str, BodyRange]]
-"""Of every size by its label: by the names of measurements the bodies it is made for."""
+"""Ranges of the bodies that each size is made for, by its label and the measurement's name."""
 
 
 class ChartError(Exception):
@@ -197,7 +197,7 @@ class SizeChance(WireModel):
 
 
 class SizedMeasurement(WireModel):
-    """How a size fits in one measurement.
+    """Fit of a size in one measurement.
 
     ``within``, ``too_small`` and ``too_large`` are the probabilities that the person's body, with
     its ease, lies in the size's range, above it or below it.
@@ -250,7 +250,7 @@ class CompositionOptions(ProductOptions):
 
 
 class BodyFatEstimate(WireModel):
-    """What one regression says; nothing but why, where the person is not of its population."""
+    """Estimate by one regression; withheld, with reasons, for people outside its population."""
 
     name: str = Field(description="Stable.", examples=["us_navy", "cun_bae"])
     source: str

@@ -40,7 +40,7 @@ FITS: Final = "/v1/fits"
 """Path of the fits below the service's root."""
 
 POLL_AFTER_S: Final = 1
-"""What Retry-After says for a fit that has not ended."""
+"""Value of Retry-After for a fit that has not ended, seconds."""
 
 ROUTER: Final = APIRouter(prefix=FITS, tags=["fits"])
 

@@ -66,7 +66,7 @@ from service.jobs.records import ACTIVE, JobRecord, NewJob, StoredBlob, Submissi
 from service.submissions.refusal import RefusedError, refused, refused_field
 
 PRODUCTS: Final = "products"
-"""Where they lie below their fit."""
+"""Path of products below their fit."""
 
 ROUTER: Final = APIRouter(prefix=f"{FITS}/{{fit_id}}/{PRODUCTS}", tags=["products"])
 

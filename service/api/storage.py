@@ -25,7 +25,7 @@ _THREADS: Final = CapacityLimiter(16)
 """Fewer than the connections to the database: reads find one while all these wait."""
 
 TURN_WITHIN_S: Final = 20.0
-"""Who has not been let so long is told to come again: twice as long as a statement may take."""
+"""Longest wait for a turn, seconds: twice a statement's limit. Then the caller is told to retry."""
 
 RETRY_WHEN_FULL_S: Final = 60
 """Somebody has to make room first."""

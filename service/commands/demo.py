@@ -21,7 +21,7 @@ SERVE_COMMAND: Final = (*PYTHON, "-m", "service.cli", "serve", "--port", "0")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Where the files go."""
+    """Folder for the files."""
     add_output(parser, Path("demo-output"))
 
 

@@ -184,7 +184,7 @@ def _table(result: FitResult, truth: Mapping[str, float]) -> Iterator[str]:
 
 
 def _print_remarks(remarks: Iterable[Remark]) -> None:
-    """What blocks is told by the outcome."""
+    """Print all remarks but those that block, which the outcome tells."""
     for each in remarks:
         if each.severity is not Severity.BLOCKS:
             print(f"{each.severity} ({each.code}): {each.text}")

@@ -18,7 +18,7 @@ UNHEALTHY: Final = 1
 """The only exit status that Docker takes as unhealthy."""
 
 LATE_S: Final = 10.0
-"""How much later than its interval a worker's beat may come: fits keep a machine busy. Together
+"""Delay allowed to a worker's beat beyond its interval, seconds: fits keep a machine busy. Together
 with the interval this is less than docker/compose.yaml gives this command."""
 
 LOOK_S: Final = 0.1
@@ -28,7 +28,7 @@ NOT_ABLE: Final = "no worker of this machine can start processes for jobs; its l
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Who is asked for."""
+    """Process to ask for: the API or the worker."""
     parser.add_argument("--worker", action="store_true", help="ask for the worker, not the API")
 
 

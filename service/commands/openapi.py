@@ -7,7 +7,7 @@ from service.api.app import openapi_text
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Where to."""
+    """File to write to."""
     parser.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
 
 

@@ -28,7 +28,7 @@ LOG: Final = logging.getLogger(__name__)
 WORKER_COMMAND: Final = (*PYTHON, "-m", "service.compute")
 ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.compute", "questions")
 STOP_MARGIN_S: Final = 5.0
-"""How much longer than its drain time a worker gets before it is killed."""
+"""Time that a worker gets beyond its drain time before it is killed, seconds."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -29,7 +29,7 @@ from service.submissions.refusal import RefusedError
 
 REPORT: Final = "validation.md"
 NULLS: Final = ((STATURE,), (STATURE, WEIGHT))
-"""What is known where no picture is looked at."""
+"""Measurements that are known where no picture is looked at."""
 
 AGAIN: Final = "_2"
 

@@ -32,7 +32,7 @@ class BlobsUnavailableError(Exception):
 
 
 class BlobDamagedError(BlobsUnavailableError):
-    """What is stored is not what was; a copy may be put back."""
+    """The blob is no longer what was stored; a copy of it may be put back."""
 
     def __init__(self, name: str) -> None:
         super().__init__(f"blob {name} has another content than its name says")

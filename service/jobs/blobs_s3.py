@@ -39,7 +39,7 @@ REFUSED: Final = frozenset(
         "SignatureDoesNotMatch",
     }
 )
-"""What is answered until name, region, credentials or rights are corrected."""
+"""Errors that are answered until name, region, credentials or rights are corrected."""
 
 ENDPOINT: Final = "AWS_ENDPOINT_URL_S3"
 """Names a server that is not Amazon's."""

@@ -18,9 +18,9 @@ from service.jobs.rows import Endings
 from service.jobs.tables import JOBS
 
 MAX_WORKER_DEATHS: Final = 10
-"""How many workers may die while running one job. Larger than the limit on crashes of the fit's own
-process, because workers also die for reasons unrelated to the picture: restarts, machines, chaos
-tests."""
+"""Number of workers that may die while running one job. Larger than the limit on crashes of the
+fit's own process, because workers also die for reasons unrelated to the picture: restarts,
+machines, chaos tests."""
 
 _ACTIVE: Final = JOBS.c.state.in_([state.value for state in ACTIVE])
 _RUNNING: Final = JOBS.c.state == JobState.RUNNING.value

@@ -36,11 +36,11 @@ MIGRATION_LOCK: Final = 0x6D617175
 SCHEMA_VERSION: Final = "10"
 SCHEMA_FACT: Final = "schema_version"
 BODY_MODELS_FACT: Final = "body_models"
-"""What the worker that last started can fit, as JSON."""
+"""Name of the fact that says, as JSON, what the worker that last started can fit."""
 
 WAIT_S: Final = 10
-"""How long a statement may take, locks included, and how long to wait for a free connection: who
-asks is told then, and who works tries again."""
+"""Longest time for a statement, locks included, and longest wait for a free connection, seconds.
+After that a caller is told, and a worker tries again."""
 
 POSTGRES_CONNECTION: Final = {
     "connect_timeout": 5,
@@ -296,7 +296,7 @@ PRIMARY_CODE: Final = 0xFF
 
 DISK_FULL: Final = "53100"
 FULL_SQLITE: Final = frozenset({sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_SHMSIZE})
-"""What SQLite reports, besides SQLITE_FULL, if a file cannot grow: a quota, a file size limit."""
+"""Errors of SQLite, besides SQLITE_FULL, if a file cannot grow: a quota, a file size limit."""
 
 
 def refusal(error: DBAPIError) -> str | None:

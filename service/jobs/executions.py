@@ -1,4 +1,4 @@
-"""What DBOS records of executions: who runs what, and how it ended. Their ids are the jobs'."""
+"""DBOS's records of executions: who runs what, and how it ended. Their ids are the jobs'."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -16,7 +16,7 @@ FAILED: Final = "ERROR"
 ENDED: Final = ("SUCCESS", FAILED, "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
 
 CONTINUE_S: Final = 0.5
-"""How often DBOS looks for executions that a worker is to continue."""
+"""Interval at which DBOS looks for executions that a worker is to continue, seconds."""
 
 
 def client_of(database: sa.Engine) -> DBOSClient:
@@ -62,7 +62,7 @@ def holders(client: DBOSClient) -> Mapping[str, str]:
 
 
 def ending(client: DBOSClient, job_id: str) -> str | None:
-    """How a job's execution ended: one of ``ENDED``; None if it has not."""
+    """The end of a job's execution: one of ``ENDED``; None if it has not ended."""
     found = client.list_workflows(
         workflow_ids=[job_id],
         name=WORKFLOW,

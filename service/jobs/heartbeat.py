@@ -24,8 +24,8 @@ from service.jobs.tables import WORKERS
 LOG: Final = logging.getLogger(__name__)
 
 DROPPED_AFTER_S: Final = 5.0
-"""How long a job may be claimed by a worker that does not run it: many times as long as a claim
-takes to be made or given up."""
+"""Time that a job may be claimed by a worker that does not run it, seconds: many times as long as a
+claim takes to be made or given up."""
 
 
 class Heartbeat:

@@ -127,7 +127,7 @@ class TenantImages:
             return _forget(connection, IMAGES.c.id == image_id, *self._seen())
 
     def _seen(self) -> tuple[sa.ColumnElement[bool], ...]:
-        """What the tenant may know of."""
+        """The condition that a picture is one that the tenant may know of."""
         return (IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time())
 
     def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:

@@ -1,4 +1,4 @@
-"""Who is alive: heartbeats are counted, never dated, so that no clock jump kills a worker.
+"""Liveness of workers: heartbeats are counted, never dated, so that no clock jump kills a worker.
 
 A worker increments its ``beat`` every few seconds. A watcher adds up, by its own monotonic clock,
 for how long it has looked and seen the number unchanged. Time in which it did not look does not

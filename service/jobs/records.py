@@ -109,7 +109,7 @@ class JobRecord:
 
     @property
     def scope(self) -> str:
-        """Where its blobs lie: those of a product beside its fit's."""
+        """Scope of its blobs: a product's lie beside its fit's."""
         return self.parent or self.id
 
     @property
@@ -156,7 +156,7 @@ class JobExpiredError(Exception):
 
 
 class SubmitOutcome(StrEnum):
-    """How a submission ended.
+    """Outcome of a submission.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
     considered abandoned and erased before it was submitted. ``FIT_GONE``: the fit of a product was
@@ -200,7 +200,7 @@ class WorkerStatus:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DurationHistogram:
-    """How long a phase of jobs took: numbers of jobs by upper bound in seconds, and the sum."""
+    """Durations of a phase of jobs, seconds: numbers of jobs by upper bound, and the sum."""
 
     phase: str
     counts: tuple[tuple[float, int], ...]
@@ -220,7 +220,7 @@ class EngineStatistics:
 
 
 class Directive(StrEnum):
-    """What a running attempt should do."""
+    """Instruction to a running attempt."""
 
     CONTINUE = "continue"
     CANCELED = "canceled"
@@ -238,7 +238,7 @@ class Report:
 
 
 class Ending(StrEnum):
-    """How an attempt ended: as a job does, but for the last two.
+    """Outcome of an attempt: one of a job's, or one of the last two.
 
     ``CRASHED`` attempts are repeated up to a limit.
     """

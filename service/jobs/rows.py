@@ -128,7 +128,7 @@ def move_job(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Endings:
-    """How jobs end: what they expire after, seconds, and who has their end told.
+    """Rules for ending jobs: the time until they expire, seconds, and who is told of their end.
 
     ``notify`` is called in the transaction that ends a job.
     """

@@ -9,7 +9,7 @@ from typing import Final
 LOG: Final = logging.getLogger(__name__)
 
 FAULT_PAUSE_S: Final = 1.0
-"""How long to wait after a look that failed."""
+"""Pause after a look that failed, seconds."""
 
 
 class WorkerSlots:
@@ -85,7 +85,7 @@ class WorkerSlots:
             return tuple(self._taken)
 
     def vacant(self) -> int:
-        """How many jobs may begin now; none once the slots are closed."""
+        """Number of jobs that may begin now; 0 once the slots are closed."""
         with self._changed:
             if self._closed:
                 return 0

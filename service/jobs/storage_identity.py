@@ -36,7 +36,7 @@ from service.settings import SettingError, Settings
 STORAGE_FACT: Final = "storage"
 OFFERED_FACT: Final = "storage_offered"
 SCOPE: Final = "storage-of"
-"""Where the number is kept; scopes of jobs are other names, and are all that is ever erased."""
+"""Scope of the number; scopes of jobs have other names, and only those are ever erased."""
 
 retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
 

@@ -43,7 +43,7 @@ def product_of(tenant: str, fit_id: str, product: str) -> tuple[sa.ColumnElement
 
 
 class Submissions:
-    """What one tenant submits; every method may raise :class:`EngineUnavailableError`.
+    """Submissions of one tenant; every method may raise :class:`EngineUnavailableError`.
 
     Both limits count pictures: of everybody's waiting jobs, and of the tenant's.
     """

@@ -123,7 +123,7 @@ OUTCOMES = sa.Table(
     sa.Column("state", sa.String(16), primary_key=True),
     sa.Column("jobs", sa.BigInteger, nullable=False),
 )
-"""How many jobs have ever ended in each state; erasing a job does not lower it."""
+"""Numbers of jobs that have ever ended in each state; erasing a job does not lower them."""
 
 DURATIONS = sa.Table(
     "maquette_durations",
@@ -133,7 +133,7 @@ DURATIONS = sa.Table(
     sa.Column("jobs", sa.BigInteger, nullable=False),
     sa.Column("seconds", sa.Double, nullable=False),
 )
-"""How long phases of jobs took, as a histogram: ``bucket`` is an upper bound in seconds."""
+"""Durations of phases of jobs, as a histogram: ``bucket`` is an upper bound in seconds."""
 
 WORKERS = sa.Table(
     "maquette_workers",

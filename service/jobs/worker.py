@@ -48,13 +48,13 @@ from service.settings import Settings
 LOG: Final = logging.getLogger(__name__)
 
 QUEUE_POLL_S: Final = 0.05
-"""How often an idle worker looks for jobs."""
+"""Interval at which an idle worker looks for jobs, seconds."""
 
 AWAY_PAUSE_S: Final = 1.0
-"""How long to pause while the database is away."""
+"""Pause while the database is away, seconds."""
 
 CLAIM_ENDS_S: Final = 5.0
-"""How long a worker that stops waits for the claim it may be about."""
+"""Time that a worker that stops waits for a claim under way, seconds."""
 
 
 class WorkerEngine:

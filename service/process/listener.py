@@ -22,7 +22,7 @@ MOST_CONNECTIONS: Final = 10_000
 """However many descriptors there are: each connection takes some 20 kB."""
 
 LOOK_S: Final = 0.1
-"""How often it is looked which connections have been closed, while there seem to be too many."""
+"""Least interval between looks for closed connections while there seem to be too many, seconds."""
 
 TOLD_EVERY_S: Final = 60.0
 
@@ -89,7 +89,7 @@ def listen(settings: Settings) -> Listener:
 
 
 def connection_limit(descriptors: int) -> int:
-    """How many connections may be open of so many descriptors."""
+    """Number of connections that may be open with so many descriptors."""
     return min(max(descriptors - KEPT_DESCRIPTORS, descriptors // 2), MOST_CONNECTIONS)
 
 

@@ -63,7 +63,7 @@ MOST_VALUES: Final = 3_000
 
 _UNIT: Final = re.compile(r"_(m|kg|px|35mm)$")
 _LIKENESS: Final = 0.75
-"""How similar a name must be to be taken for a misspelling: `hieght` is no `light` (0.73)."""
+"""Least similarity of a name taken for a misspelling: `hieght` is no `light` (0.73)."""
 
 _BOUNDS: Final[Mapping[str, str]] = {
     "greater_than": "gt",
