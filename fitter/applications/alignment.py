@@ -34,7 +34,7 @@ from fitter.arrays import Vector3
 from fitter.numerics.rotations import cross_products, unit_vectors
 
 STRAIGHT_LIMB_WEIGHT = 0.08
-"""Of the direction a straight limb would bend, beside the squared sine of its bend: 16 degrees."""
+"""Weight of a straight limb's bending direction against the squared sine of a bend: 16 degrees."""
 
 STILL_FOOT_LEGS_PER_SECOND = 0.3
 """A foot this fast counts 1/e of one that stands: 0.25 m/s."""

@@ -31,7 +31,7 @@ from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.remarks import Note, Remark, remark
 
 MOST_FRAMES = 360
-"""Of an animation: 12 s at 30 frames a second. Each is an exact body of 149 kB while it is made."""
+"""Most frames: 12 s of animation at 30 a second, each an exact body of 149 kB while it is made."""
 
 MOST_FRAMES_PER_SECOND = 30.0
 

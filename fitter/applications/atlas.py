@@ -16,8 +16,8 @@ from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
 
 MARGIN_SHARE = 16 / 1024
-"""Of the side: how far colours go on beyond an island, so that a renderer that averages texels
-(four levels of mipmaps) meets no seam."""
+"""Width of the margin of colour around an island, as a share of the side: a renderer that averages
+texels (four levels of mipmaps) then meets no seam."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -56,7 +56,7 @@ class Regression:
 
 
 class BodyFat(NamedTuple):
-    """What one regression says: percent of the weight, or why it says nothing (``withheld``)."""
+    """Answer of one regression: percent of the weight, or why it gives none (``withheld``)."""
 
     regression: Regression
     percent: float | None
@@ -72,7 +72,7 @@ def body_mass_index(person: JointMeasurements) -> float:
 def body_fat(
     person: JointMeasurements, gender: Gender, age_years: float | None
 ) -> tuple[BodyFat, ...]:
-    """What every regression says of a person; without an age that of an adult."""
+    """Body fat of a person by every regression; without an age, that of an adult."""
     bmi = body_mass_index(person)
     return tuple(_estimated(each, person, bmi, age_years) for each in regressions(gender))
 

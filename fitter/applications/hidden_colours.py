@@ -45,11 +45,11 @@ SAME_CLOTH = 10.0
 in other light."""
 
 HEM_COST = 9.0
-"""Of one more band, in squares of CIELAB metres: a band of 3 cm stays if it differs by 25 from
+"""Cost of one more band, in squares of CIELAB metres: a band of 3 cm stays if it differs by 25 from
 what is beside it, and one of 20 cm by 10."""
 
 BRIGHTNESS_SHARE = 0.4
-"""Of differences of brightness, against those of hue and saturation, when bands are told apart."""
+"""Weight of brightness against hue and saturation when bands are told apart."""
 
 BORDER = (0.3, 0.7)
 """Shares of a region between which its colours turn into its neighbour's, over about 1.5 cm."""
@@ -121,7 +121,7 @@ _INSTEAD: Mapping[Region, tuple[Region, ...]] = {
     Region.FACE: (Region.HANDS, Region.ARMS, Region.SCALP, Region.TRUNK),
     Region.SCALP: (Region.FACE, Region.HANDS, Region.ARMS, Region.TRUNK),
 }
-"""What stands in for a region of which nothing is seen, best first: for skin, other skin."""
+"""Stand-ins for a region of which nothing is seen, best first: for skin, other skin."""
 
 
 def on_rings(

@@ -168,7 +168,7 @@ SOLE_HEIGHT_M = 0.03
 """Vertices of the feet this near to the lowest at rest are the soles."""
 
 SOURCE_WEIGHT = 0.02
-"""Of the source's own motion, beside vertices of weight up to one each."""
+"""Weight of the source's own motion, beside vertices of weight up to one each."""
 
 SLOWEST_M_PER_S = 0.05
 """At which feet may slide to keep the source's way: 1.7 mm a frame of 30 a second. A recorded walk
@@ -196,7 +196,7 @@ def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
 
 
 def sliding_m(body: MovingBody, model: BodyModel) -> float:
-    """How far what touches the ground of the soles slides from frame to frame, mean, metres."""
+    """Mean slide, from frame to frame, of what touches the ground of the soles, metres."""
     soles = _soles(body, model) + body.roots[:, None]
     weights = _touching(soles[:, :, 1])
     moved = np.linalg.norm(np.diff(soles[:, :, [0, 2]], axis=0), axis=2)

@@ -36,7 +36,7 @@ LEAST_OF_FACE = 0.35
 """Mean belief of the half of a face that is seen better, from which the face is believed."""
 
 DARKEST = 0.004
-"""Of linear light; below it noise dominates."""
+"""Least linear light that is told apart; below it noise dominates."""
 
 
 def at_vertices(model: BodyModel) -> SurfacePoints:
@@ -49,7 +49,7 @@ def at_vertices(model: BodyModel) -> SurfacePoints:
 
 
 def face_to_leave_out(surface: PictureSurface, model: BodyModel) -> Float[np.ndarray, " m"]:
-    """How far each vertex belongs to a face that is not seen as one; 0 for all where it is."""
+    """Weight of each vertex in a face that is not seen as one; 0 for all where it is."""
     features, x = RingCoordinates.of(model).features, model.mean_vertices[:, 0]
     belief = surface.belief(at_vertices(model))
     halves = [np.average(belief, weights=features * own) for own in (x >= 0.0, x <= 0.0)]

@@ -37,7 +37,7 @@ HIDDEN_M = 0.015
 """So far behind what a pixel shows a point is hidden; up to the depth's tolerance it is seen."""
 
 LEAST_PX = 2
-"""Of all these distances: over so many pixels a camera's picture is blurred itself."""
+"""Lower bound of all these distances: over so many pixels a camera's picture is itself blurred."""
 
 Colours = Float[np.ndarray, "k 3"]
 Beliefs = Float[np.ndarray, " k"]
@@ -209,7 +209,7 @@ COLOURS = 2
 """Colours of a scalp: hair and its light, hair and a band."""
 
 LEAST_SHARE = 0.25
-"""Of the seen scalp, that a colour of it counts as hair's."""
+"""Least share of the seen scalp from which a colour of it counts as hair's."""
 
 ALIKE = 2.5
 """Deviations up to which a pixel has the colour of hair."""

@@ -26,8 +26,8 @@ from fitter.numerics.rotations import (
 )
 
 LIMIT_TOLERANCE_DEG = 15.0
-"""How far beyond the textbooks' ranges of motion (:mod:`fitter.body.joint_limits`) a part may be
-turned: people vary, and one rotation's components differ from a goniometer's successive angles."""
+"""Margin beyond the textbooks' ranges of motion (:mod:`fitter.body.joint_limits`): people vary, and
+one rotation's components differ from a goniometer's successive angles."""
 
 _DIRECTIONS = ("flexion", "abduction", "twist")
 

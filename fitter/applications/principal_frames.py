@@ -22,7 +22,7 @@ ERROR_GOAL_M = 0.003
 """In the worst vertex of the worst frame: as many targets are taken as it needs, up to the most."""
 
 _LEAST_SHARE = 1e-12
-"""Of the largest variance: what is smaller is rounding."""
+"""Share of the largest variance below which a variance is rounding."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -88,7 +88,7 @@ AXES: tuple[Axis, ...] = get_args(Axis)
 _UPRIGHT_COSINE = np.cos(np.radians(45.0))
 
 _MOST = 0.75
-"""Of the frames: where fewer are upright along any axis, up is in doubt."""
+"""Share of frames upright along the best axis, below which up is in doubt."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -144,7 +144,7 @@ LIFT_DEAD_ZONE_M = 0.05
 what goes beyond is taken for leaving the ground."""
 
 GROUND_PERCENTILE = 10.0
-"""Of the lowest joint's height over the clip: the source's ground."""
+"""Percentile of the lowest joint's height over the clip that is taken for the source's ground."""
 
 MOST_SAMPLES = 500
 """Frames of the clip, evenly spread, from which up and the alignments follow."""
@@ -210,7 +210,7 @@ def retarget(
 
 
 def _world_and_samples(source: MotionFile, up: Axis | None) -> tuple[UpAxis, Samples]:
-    """How the file's world stands, and the frames of the clip from which A follows.
+    """The up axis of the file's world, and the frames of the clip from which A follows.
 
     They are of the whole clip, so that every stretch of it shows the same.
     """

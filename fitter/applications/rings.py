@@ -1,4 +1,4 @@
-"""Where the surface of a body lies along the regions that clothes and limbs go round.
+"""Coordinates of a body's surface along the regions that clothes and limbs go round.
 
 A ring is what has the same position along its region: the trunk and the legs go from the crown
 down, the arms from the shoulder out, face and neck down. Hands and scalp are one ring each.
@@ -33,7 +33,7 @@ BORDER_M = 0.015
 
 
 class Region(IntEnum):
-    """What has a profile of its own."""
+    """Region with a profile of its own."""
 
     TRUNK = 0
     ARMS = 1
@@ -50,7 +50,7 @@ _REGION_OF_PART: Mapping[str, Region] = {
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RingCoordinates:
-    """Where the surface of a body model lies along its regions.
+    """Coordinates of a body model's surface along its regions.
 
     Attributes
     ----------
@@ -60,11 +60,11 @@ class RingCoordinates:
         (5, m) position of each vertex along each region, metres on the mean body; hands and
         scalp have one colour only.
     shares
-        (5, m) how far each vertex lies in each region, which blend over :data:`BORDER_M`.
+        (5, m) share of each vertex in each region; regions blend over :data:`BORDER_M`.
     beside
-        (m,) how far it lies beside the body's middle, of the widest of its height: 0 to 1.
+        (m,) distance from the body's middle, as a share of the widest at its height: 0 to 1.
     features
-        (m,) how far eyes, nose or mouth are there: 0 to 1.
+        (m,) weight of eyes, nose or mouth at each vertex: 0 to 1.
     """
 
     region: Integer[np.ndarray, " f"]
@@ -76,7 +76,7 @@ class RingCoordinates:
     @classmethod
     @lru_cache(maxsize=2)
     def of(cls, model: BodyModel) -> "RingCoordinates":
-        """Of a body model, from its mean body at rest."""
+        """Coordinates of a body model, from its mean body at rest."""
         kinds = [name.removeprefix("left_").removeprefix("right_") for name in model.part_names]
         of_part = np.array([_REGION_OF_PART.get(kind, Region.TRUNK) for kind in kinds])
         region = of_part[model.part_of_triangle]
@@ -117,7 +117,7 @@ def _of_vertices(model: BodyModel, triangles: Bool[np.ndarray, " f"]) -> Float[n
 def _beside(
     vertices: Float[np.ndarray, "m 3"], trunk: Bool[np.ndarray, " m"]
 ) -> Float[np.ndarray, " m"]:
-    """How far vertices lie beside the middle, of the trunk's widest at their height."""
+    """Distances of vertices from the middle, as shares of the trunk's widest at their height."""
     level = np.floor(vertices[:, 1] / _LEVEL_M).astype(np.intp)
     level -= level.min()
     widest = np.full(level.max() + 1, 1e-3)

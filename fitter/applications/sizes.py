@@ -23,7 +23,7 @@ from jaxtyping import Bool, Float, Int
 from fitter.measurement.joint_measurements import JointMeasurements
 
 TOO_SMALL = 2.0
-"""How much more a size costs that is too small than one that is too large."""
+"""Cost of a size that is too small, against one that is as much too large."""
 
 LEAST_STEP = 0.1
 """Centimetres or kilograms: of a range without width in all sizes."""
@@ -121,7 +121,7 @@ def size_answer(sizes: Sizes, person: JointMeasurements, ease: Mapping[str, floa
 def _compared(
     sizes: Sizes, bodies: Float[np.ndarray, "n k"]
 ) -> tuple[Float[np.ndarray, "n s"], Bool[np.ndarray, "n s"], Float[np.ndarray, "n s"]]:
-    """Of every body and size the cost, whether it fits, and how far it is from the middle."""
+    """Cost of every size for every body, whether it fits, and its distance from the middle."""
     shape = len(bodies), len(sizes.labels)
     costs, fits, off = np.empty(shape), np.empty(shape, dtype=bool), np.empty(shape)
     # One size at a time: of 200 sizes and 40 measurements all costs together are gigabytes.

@@ -50,11 +50,11 @@ SIZES = (512, 1024, 2048)
 """Sides an atlas may have, texels."""
 
 PICTURE_PIXELS = 2_000_000
-"""Of the picture that is laid on the body: then a pixel of a standing person is a millimetre, as a
-texel of the largest atlas is."""
+"""Pixels of the picture that is laid on the body: then one of a standing person is a millimetre, as
+a texel of the largest atlas is."""
 
 MIDDLE_SHARE = 0.05
-"""How much the middle of the trunk tells of its back, against its sides."""
+"""Weight of the trunk's middle as evidence of its back, against its sides."""
 
 
 class TexelOrigin(IntEnum):
@@ -262,9 +262,9 @@ def _hidden_colours(
 def _near_what_is_hidden(
     rings: RingCoordinates, region: Integer[np.ndarray, " k"], points: SurfacePoints
 ) -> Float[np.ndarray, " k"]:
-    """How much a point tells of the rest of its ring.
+    """Weight of a point as evidence of the rest of its ring.
 
-    Of the trunk its sides do: in front there are necklines, openings, fastenings and prints.
+    On the trunk the sides count: in front there are necklines, openings, fastenings and prints.
     """
     beside = MIDDLE_SHARE + (1.0 - MIDDLE_SHARE) * points.of(rings.beside) ** 2
     return np.where(region == Region.TRUNK, beside, 1.0)
@@ -309,7 +309,7 @@ class LitSurface:
         light: Light,
         reflectance: Reflectance,
     ) -> "LitSurface":
-        """Of a surface before its picture, in the light that the fit found."""
+        """Surface of a body before its picture, in the light that the fit found."""
         rendering, centre = surface.rendering, person.body.translation
         shadowed = cast_shadow(
             rendering.vertices, rendering.triangles, light=light, body_centre=centre

@@ -79,7 +79,7 @@ HEADER_KEYS = (
 )
 
 STATURE_LANDMARKS = ("crown", "sole_left", "sole_right")
-"""What :mod:`fitter.body.model` measures height by. A fit needs more:
+"""Landmarks by which :mod:`fitter.body.model` measures height. A fit needs more:
 :mod:`fitter.fits.usable_model`."""
 
 

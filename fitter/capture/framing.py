@@ -11,7 +11,7 @@ from fitter.detection.landmark_meanings import INDEX_OF_POINT
 from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 BORDER_PX = 1.0
-"""What comes this close to the picture's border may continue beyond it."""
+"""Distance from the picture's border within which a body may continue beyond it."""
 
 LEAST_STATURE_PX = 250.0
 """Stature in pixels of the working picture below which measurements suffer: of eight pictures of
@@ -144,7 +144,7 @@ def _nearest(joints: Joints, place: Float[np.ndarray, "2"]) -> str | None:
 
 
 MOST_ROLLED_DEG = 8.0
-"""Of people who stand: their line from ankles to shoulders leans by at most 4.1 degrees on the
+"""Largest lean accepted of people who stand, from ankles to shoulders: at most 4.1 degrees on the
 tuning pictures, most of it by shifting the hips."""
 
 STRAIGHT_DEG = 20.0

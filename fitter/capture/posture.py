@@ -32,7 +32,7 @@ LEAST_TRUNK: Final = 1.05
 """The trunk's own, of the longer thigh's; 1.08 was the least."""
 
 LYING_DEG = 55.0
-"""How far the trunk of who lies is from the vertical, at least."""
+"""Least angle between the trunk of a lying person and the vertical."""
 
 KNEELING_DEG = 60.0
 """Knees that are both bent so far; 24 degrees at most of who stands."""
@@ -45,12 +45,12 @@ halves). A weightlifter whose ankles are hidden by the bar he has dropped stands
 
 STOOPED_DEG = 36.0
 LOW_HEAD, HANGING_HEAD = 0.05, 0.02
-"""Who leans in space by the first, as the detector sees it, bends over where the nose is low over
-the shoulders too, by the stature: from the second on that harms, from the third on it blocks.
-Of 170 pictures of people who stand or stride, from all sides, trunks lean by 33 degrees at most and
-noses are at 0.098 at least; where chests lean by 45 degrees trunks are seen to lean by 37 at least
-and noses are at 0.055 at most (tuning half). Neither tells alone: raised arms lift the shoulders,
-and a high camera tilts the trunk."""
+"""Least lean of the trunk of people who bend over, in space, as the detector sees it; and heights
+of their noses over the shoulders, by the stature: up to the first this harms, up to the second it
+blocks. Of 170 pictures of people who stand or stride, from all sides, trunks lean by 33 degrees at
+most and noses are at 0.098 at least; where chests lean by 45 degrees trunks are seen to lean by 37
+at least and noses are at 0.055 at most (tuning half). Neither tells alone: raised arms lift the
+shoulders, and a high camera tilts the trunk."""
 
 
 def posture(capture: Capture) -> Remark | None:
@@ -66,7 +66,7 @@ def posture(capture: Capture) -> Remark | None:
 
 
 def detected_posture(capture: Capture) -> Remark | None:
-    """What the detector alone says of it, the same before a fit and after it."""
+    """Remark on the posture by the detector alone, the same before a fit and after it."""
     return max(_posture(detected_directions(capture)), _head(capture), key=_gravity)
 
 
@@ -265,7 +265,7 @@ LEAST_GAP = 0.01
 
 _SIDES = {"left": "right", "right": "left"}
 _UPPER_ARM, _FOREARM = np.linspace(0.5, 1.0, 6), np.linspace(0.1, 0.9, 8)
-"""Where along the bones the gap is looked for: below the armpit, and up to the wrist."""
+"""Shares of the bones at which the gap is looked for: below the armpit, and up to the wrist."""
 
 
 def arms(capture: Capture) -> Remark | None:

@@ -48,8 +48,8 @@ FACE_SEEN: Final = 0.75
 maker) it is 0.82 at least, of twelve people from behind 0.68 at most."""
 
 CUT_AT: Final = (-0.12, 0.85)
-"""Where the picture is cut off so that the head is out of it, and the trunk too: from the shoulders
-to the hips."""
+"""Heights at which the picture is cut off, so that the head is out of it, then the trunk too:
+shares of the way from the shoulders to the hips."""
 
 _REACH = 3
 """Pixels of the heat map on either side of a landmark that are used to refine it."""

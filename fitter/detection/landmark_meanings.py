@@ -54,7 +54,7 @@ LEAST_CONFIDENCE: Final = 0.05
 """Below it nothing was measured: six times the spread, as far as a limb is long."""
 
 UNSEEN_CONFIDENCE: Final = 0.16
-"""Of a guess of which no confidence is told: three times the spread."""
+"""Confidence of a guess for which none is told: three times the spread."""
 
 
 def spread_m(point: str, confidence: float) -> float:
@@ -112,10 +112,10 @@ on a person of average size. Both makers agree within 1.5 cm. Those of eyes, nos
 wrists are below 0.7 cm or differ by maker, so they are taken as they are."""
 
 RAISED_IN_PROFILE_M: Final[Mapping[str, float]] = {"shoulder": 0.029, "knee": 0.018}
-"""How much higher they lie where the trunk is seen from the side: metres, by the square of the sine
-of its turn, learned likewise.
+"""Further rise of landmarks where the trunk is seen from the side: metres, by the square of the
+sine of its turn, learned likewise.
 
-What is not taken off: from the side the network draws near and far points at nearly one level, as
+One error is left: from the side the network draws near and far points at nearly one level, as
 if seen from afar. The far knee is 4 cm too low beside the near one by both makers' bodies, the far
 ankle 3 to 5. Putting them apart, or trusting the far side less, brings no weight nearer to the
 truth (DECISIONS.md, "What a fit takes from the detector").

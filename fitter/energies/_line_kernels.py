@@ -31,7 +31,7 @@ UNRELATED = 30.0
 
 
 SERIES = tuple(1.0 / factorial(n) for n in range(12, -1, -1))
-"""Of the exponential function, the highest power first."""
+"""Taylor coefficients of the exponential function, the highest power first."""
 
 
 @no_type_check

@@ -45,12 +45,12 @@ from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
 
 WINDOW_M, LEAST_WINDOW_PX = 0.025, 4
-"""How far from the body's contour the boundary is searched for."""
+"""Distance to either side of the body's contour within which the boundary is searched for."""
 
 DEPTH_M, LEAST_DEPTH_PX = 0.02, 4
-"""How far from the boundary colours are learnt and compared: skin darkens toward its rim, so nearer
-is better. On the evaluation's tuning half 3.9 % of the lines are off by more than 3 px; with 3 cm
-4.8 %, with 5 cm 5.5 %."""
+"""Distance from the boundary within which colours are learnt and compared: skin darkens toward its
+rim, so nearer is better. On the evaluation's tuning half 3.9 % of the lines are off by more than
+3 px; with 3 cm 4.8 %, with 5 cm 5.5 %."""
 
 NEIGHBOURHOOD_M = 0.04
 """Standard deviation of the weights with which a line learns its colours from its neighbours."""
@@ -80,7 +80,7 @@ LEAST_SAMPLES = 3
 
 
 Neighbours = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""What :func:`fitter.energies._line_kernels.neighbours` returns."""
+"""Return value of :func:`fitter.energies._line_kernels.neighbours`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

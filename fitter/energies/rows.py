@@ -23,7 +23,7 @@ class Support(Enum):
     LANDMARKS = auto()
     """Those that were clicked."""
     SPHERES = auto()
-    """Of the penetration proxy."""
+    """Spheres of the penetration proxy."""
     JOINTS = auto()
 
 
@@ -100,7 +100,7 @@ class ShadingRows:
 
 
 Rows = PositionRows | ShadingRows | PriorTerms
-"""What a term passes on: rows by points, by vertices and their normals, or by the pose itself."""
+"""Rows that a term passes on: by points, by vertices and their normals, or by the pose itself."""
 
 
 def thinned(rows: PositionRows, limit: int) -> PositionRows:

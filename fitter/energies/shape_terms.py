@@ -17,7 +17,7 @@ from jaxtyping import Float
 from fitter.arrays import Shape
 
 POPULATION_PRECISION: Final = 0.6
-"""Of each coefficient under the prior of a fit; among those the model was learned from it is 1.
+"""Precision of each coefficient in the prior of a fit; among the training subjects it is 1.
 
 People elsewhere differ by more than two surveys and one maker's bodies do: with 1, heavy people
 come out too light and lean ones too heavy, by home's truths as by foreign ones.
@@ -29,7 +29,7 @@ USUAL_HEIGHT_SD: Final = 3.0
 learned from reach hardly farther: women of the survey from -2.8 to 3.3, men from -3.3 to 3.3."""
 
 HEIGHT_CURVATURE: Final = 0.025
-"""How far a person's other measurements bend away from a straight line in the height, in standard
+"""Bend of a person's other measurements away from a straight line in the height, in standard
 deviations about that line, for each squared standard deviation of the height: the root mean square
 of ANSUR II's 49 other fields among men. Among women it is 0.015."""
 

@@ -61,7 +61,7 @@ from fitter.render.rasterizer import Rendering
 
 Values = Float[np.ndarray, " k"]
 Fullness = Float[np.ndarray, "k 2"]
-"""How far what covers the upper body and the legs usually stands off, of the mean ease."""
+"""Usual standoff of clothes on the upper body and on the legs, as shares of the mean ease."""
 
 _OFFSET_STEPS: Final = 10
 """Reweighted least squares in one unknown: the last step is less than a hundredth of a pixel."""

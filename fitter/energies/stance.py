@@ -113,12 +113,12 @@ MEASURED_STANDING = StanceSpreads(
     lean=0.04,
     knees=0.06,
 )
-"""Who was asked to stand upright, straight and still: about half of what standing people leave to
-chance. Nobody follows to the centimetre; half of these spreads gained no more."""
+"""Spreads of people asked to stand upright, straight and still: about half of what standing people
+leave to chance. Nobody follows to the centimetre; half of these spreads gained no more."""
 
 FORWARD_OF_ANKLES_M = 0.045
-"""Where the centre of mass of quiet standing is: D. A. Winter, "Human balance and posture control
-during standing and walking", Gait & Posture 3 (1995); motion capture has 6 to 7 cm."""
+"""Centre of mass of quiet standing: D. A. Winter, "Human balance and posture control during
+standing and walking", Gait & Posture 3 (1995); motion capture has 6 to 7 cm."""
 
 ANKLE_HEIGHT_M = 0.08
 CAMERA_HEIGHT_M = 1.35
@@ -127,9 +127,9 @@ CAMERA_SPREADS: tuple[tuple[float, float], ...] = ((0.7, 0.2), (0.3, 0.6))
 where they crouch or sit; the rest stand on a table, a stair or a tripod. Probability, metres."""
 
 MEASURED_CAMERA_SPREADS: tuple[tuple[float, float], ...] = ((1.0, 0.6),)
-"""Who is to be measured puts the camera where it can stand, and is told to have it at the height of
-the belly. A narrower spread leaned people toward such cameras: at 1.1 m they came out 0.7 kg
-lighter still, from front and side (tuning half)."""
+"""Cameras for measuring stand where they can, and people are told to have them at the height of the
+belly. A narrower spread leaned people toward such cameras: at 1.1 m they came out 0.7 kg lighter
+still, from front and side (tuning half)."""
 
 ROLL_SPREAD = np.radians(2.0)
 """People hold cameras level to a degree or two, and turn pictures that are not."""
@@ -336,4 +336,4 @@ KINDS: Mapping[Posture, kernels.Kinds] = {
         {**STANCES, StanceKind.STANDING: MEASURED_STANDING}, MEASURED_CAMERA_SPREADS
     ),
 }
-"""What is known of stances and cameras, by what is known of the posture."""
+"""Kinds of stance and camera, by what is known of the posture."""

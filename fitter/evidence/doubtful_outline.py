@@ -20,14 +20,14 @@ from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.render.rasterizer import Rendering
 
 OFF_M: Final = 0.015
-"""How far from the body's outline what contradicts it begins. Of 52 pictures of people in underwear
-(tuning halves) 9 have such a region, with points proposed 5."""
+"""Distance from the body's outline beyond which a region contradicts it. Of 52 pictures of people
+in underwear (tuning halves) 9 have such a region, with points proposed 5."""
 
 LEAST_AREA_M2: Final = 3e-4
 """Smaller regions are speckle."""
 
 AROUND_M: Final = 0.035
-"""How far around such a region the outline is doubted: to the body, and past its next corner."""
+"""Margin of doubt around such a region: to the body, and past its next corner."""
 
 THING_M: Final = 0.5
 """A thing that covers the person reaches at most so far from where it sticks out."""
@@ -39,7 +39,7 @@ APART_M: Final = 0.25
 """From what sticks out, the rest of the person begins so far away: past a thing before them."""
 
 OWN_SHARE: Final = 0.5
-"""Of the rest of the person that has the colours of what sticks out, from which on it is theirs.
+"""Least share of the rest of the person in the colours of what sticks out, if that is their own.
 Bellies beyond the model's have 0.65 and more; boxes and bags of 24 pictures (tuning half) at most
 0.22, the arm of another up to 0.84."""
 
@@ -48,7 +48,7 @@ BROAD_M: Final = 0.1
 0.07, a belly 0.14 and more."""
 
 SURE_CONFIDENCE: Final = 0.5
-"""Where the outline counts for less anyway, at hair and hands, nothing is concluded from it."""
+"""Confidence above which an outline is judged: at hair and hands it counts for less anyway."""
 
 
 def doubtful_outline(silhouette: SilhouetteEvidence, rendering: Rendering, display: Image) -> Mask:
@@ -173,9 +173,9 @@ def _without_speckle(region: Mask, least_px: float) -> Mask:
 
 
 DOUBTFUL_CONFIDENCE = 0.05
-"""What is left of an outline's weight in a doubtful region. The model has no hair, and its hands
-are relaxed while people's may not be. Two centimetres of hair all around make a head a tenth
-larger: with full weight a body leaned forward to bring its head nearer to the camera."""
+"""Weight left to an outline in a doubtful region. The model has no hair, and its hands are relaxed
+while people's may not be. Two centimetres of hair all around make a head a tenth larger: with full
+weight a body leaned forward to bring its head nearer to the camera."""
 
 
 def outline_confidence(

@@ -11,10 +11,10 @@ from fitter.observation.maps import sample
 from fitter.render.rasterizer import Rendering
 
 FARTHEST_M, INWARD_M = 0.18, 0.05
-"""How far outside and inside a body's contour the outline of the clothes is searched for."""
+"""Distances outside and inside a body's contour within which the clothes' outline is sought."""
 
 WITHIN_M = 0.01
-"""How far inside a boundary to look whether it is cloth's: the rim itself is mixed."""
+"""Depth inside a boundary at which cloth is looked for: the rim itself is mixed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -137,7 +137,7 @@ def reflectance_pictures(
 
 
 DECIMALS = 4
-"""Of a metre: a tenth of a millimetre."""
+"""Decimal places of a metre: a tenth of a millimetre."""
 
 
 def tapes_json(result: FitResult, measuring: MeasuringBody) -> bytes:

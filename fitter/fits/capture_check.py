@@ -30,7 +30,7 @@ from fitter.vocabulary.outcomes import FocalLengthSource, WornRegion
 from fitter.vocabulary.remarks import Note, Remark, assumed
 
 ASSUMED_HEIGHT_M = 1.7
-"""Of people whose gender is not known either."""
+"""Assumed height of people whose gender is not known either."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

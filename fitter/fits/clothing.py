@@ -122,14 +122,14 @@ pictures of people in underwear, one has 0.66 and none of the others more than 0
 clothes, all but four painted on people who are seen from the side have 0.54 or more."""
 
 LOOSE_ABOVE_CLOSE, LOOSE_ABOVE_LOOSE = 0.3, 0.95
-"""How often what covers the upper body is loose where what covers the legs is close or loose.
+"""Probabilities of loose clothes on the upper body, above close and above loose ones on the legs.
 
 Above leggings and slim jeans loose tops are usual: with 0.1 waists of 21 people in draped clothes
 err by 7.4 cm, with 0.3 by 6.5, with 0.5 by 5.8; people painted with shirts and leggings come out
 1.6, 2.7 and 4.8 kg too light (``--set painted``)."""
 
 BINDING_POWER = 3
-"""Of the probability that clothes are close, as the share of a tight outline's cost that is left.
+"""Power of the probability of close clothes that gives the share left of a tight outline's cost.
 
 A small share of a tight outline outweighs all that is said of loose clothes, so that it fades
 faster than in proportion. And smoothly: a picture that is saved again moves that probability by

@@ -74,7 +74,7 @@ _FACTORS: Final[Mapping[str, Callable[[Harm], float]]] = {
 errors go along with these."""
 
 _LEAST_VARIANCE: Final = 1e-6
-"""What varies less was given."""
+"""Variance below which a measurement counts as given."""
 
 
 def widened_covariance(

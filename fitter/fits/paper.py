@@ -63,17 +63,17 @@ from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.outcomes import FacingSource, LimbFacing
 
 MOST_ROUNDS: Final = 12
-"""Of light, reflectance and body; the last of λ holds from the third on."""
+"""Most rounds of light, reflectance and body; the last of λ holds from the third on."""
 
 STILL_M: Final = 1e-3
 """The alternation ends with a round that moves the body's vertices by less, on average."""
 
 _MOST_ENERGIES: Final = {OptimizerKind.GAUSS_NEWTON: 500, OptimizerKind.SIMPLEX: 60_000}
-"""Of one search of the body; a simplex in 74 dimensions needs tens of thousands."""
+"""Most evaluations in a search of the body; a simplex in 74 dimensions needs tens of thousands."""
 
 _SHADING_NATS: Final = 130.0
-"""Of E_Sh where nothing is explained. The paper leaves its size open; this pulls as much as the
-package's own does where a seventh is left unexplained, which is usual."""
+"""Energy E_Sh, nats, where nothing is explained. The paper leaves its size open; this pulls as much
+as the package's own does where a seventh is left unexplained, which is usual."""
 
 _LARGE: Final = 1e6
 """L₀ so large that n/2 log(1 + L/L₀) is linear in L, and so Eq. 2's mean itself."""

@@ -45,7 +45,7 @@ DOUBTFUL_PARTS = ("head", "left_hand", "right_hand")
 _DOUBTFUL_MARGIN_M = 0.05
 
 _EDGE_THRESHOLD_M = 0.03
-"""How far from a model edge an image edge may lie and still attract it."""
+"""Largest distance at which an image edge still attracts a model edge."""
 
 SHARED_ERROR = 0.2
 """Correlation of the errors of two pictures that are searched together. It is less than that of

@@ -19,8 +19,8 @@ from fitter.observation.observation import Observation
 from fitter.optimizer.search import with_lines_about
 
 BEYOND_M = 0.1
-"""What is taken for the person and lies farther than this from the body is none of its own: hair,
-clothes and errors of segmentation are nearer."""
+"""Distance from the body beyond which what is taken for the person is not theirs: hair, clothes and
+errors of segmentation are nearer."""
 
 CLEAR_SHARE = 0.25
 """The boundary is found clearly on a line where its standard deviation is within this share of the
@@ -93,7 +93,7 @@ def plausibility(
 
 
 HEAD_ROWS = (0.5, 0.6, 0.7, 0.8)
-"""Where heads are compared, from the crown of the head's part to its lower end: below most hair."""
+"""Rows of the head's part at which heads are compared, from crown to lower end: below most hair."""
 
 
 def head_breadth(objective: Objective, candidate: Candidate) -> float | None:

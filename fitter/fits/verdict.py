@@ -145,9 +145,9 @@ MOST_BEYOND: Final = 0.2
 """Hair and skirts are at most 0.01 of the body; a second person in a mask is 0.8 and more."""
 
 MOST_OUTGROWN_M: Final = 0.04
-"""Of 81 pictures of people in underwear (tuning half) none has anything of their own beyond 0.015.
-Bellies that the model cannot reach, and that come out smaller the bigger they are, have 0.085 and
-more; those that it reaches have none."""
+"""Largest distance accepted of a person's own trunk or hips off the body: of 81 pictures of people
+in underwear (tuning half) none has more than 0.015. Bellies that the model cannot reach, and that
+come out smaller the bigger they are, have 0.085 and more; those that it reaches have none."""
 
 MOST_CLICK_DEVIATIONS: Final = 4.0
 """Points that are off by 3 % of the picture's height reach 3.3, points under wrong names 4.6."""
@@ -248,7 +248,7 @@ tuning half, clicked and proposed, people as they are have less but for 4, on br
 shadow; the least behind a box or an arm is 4.5e-3."""
 
 LEAST_SHARE: Final = 0.05
-"""Of a part's outline: of what is touched less nothing is told."""
+"""Least share of a part's outline that must be touched for the part to be named."""
 
 
 def obstruction(

@@ -15,8 +15,8 @@ SMALLEST = 1e-6
 FASTEST_FALL, FASTEST_RISE = 1.0 / 3.0, 5.0
 FIRST_RISE = 2.0
 PROMISED_AFTER_REJECTION = 0.7
-"""Where a step was rejected, one is tried that promises at most this share of it: with a damping so
-small that it changes nothing, the next step would end nearly where the rejected one did."""
+"""Largest share of a rejected step's promise that the next one may make: with a damping so small
+that it changes nothing, that step would end nearly where the rejected one did."""
 
 
 class Damping(NamedTuple):

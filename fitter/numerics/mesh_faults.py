@@ -91,8 +91,8 @@ def _edge(key: int, vertex_count: int) -> str:
 
 
 _CELLS_ALONG_LONGEST = 160
-"""Of the grid that brings edges and triangles together. A body takes 0.16 s with 128 to 200, 0.3 s
-with 64 or 300: two thirds of its triangles are those of head, hands and feet."""
+"""Cells along the grid that brings edges and triangles together. A body takes 0.16 s with 128 to
+200, 0.3 s with 64 or 300: two thirds of its triangles are those of head, hands and feet."""
 
 
 def pierced_triangles(

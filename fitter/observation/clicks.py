@@ -37,7 +37,7 @@ as much in where a joint is. With the table above here too, the mean error of wa
 half is 2.5 cm instead of 2.3, of chests of 16 foreign bodies 3.9 instead of 4.1: no clear gain."""
 
 OCCLUDED_FACTOR = 3.0
-"""How much less the click of a hidden point is trusted."""
+"""Factor by which the spread of a hidden point's click is larger."""
 
 
 def click_spread_m(name: str, click: Click) -> float:

@@ -37,7 +37,7 @@ BRANDS: Final = frozenset({b"heic", b"heix", b"heim", b"heis"})
 MOST_BRANDS: Final = 100
 
 ORIENTATION: Final = "original_orientation"
-"""What EXIF said before the decoder rewrote it."""
+"""Key of the EXIF orientation as it was before the decoder rewrote it."""
 
 
 def is_heif(data: bytes) -> bool:

@@ -16,7 +16,7 @@ from fitter.arrays import GreyImage, Image
 from fitter.observation import _kernels
 
 LUMINANCE_WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
-"""Of linear sRGB (ITU-R BT.709)."""
+"""Weights of the channels of linear sRGB (ITU-R BT.709)."""
 
 
 def linear_from_display(display: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:

@@ -47,8 +47,7 @@ from fitter.vocabulary.choices import Facing
 _SETTLING_ITERATIONS = 3
 
 _NEAREST_M = 0.1
-"""How near to the camera a landmark may be: nearer by, or behind it, it has no place in a picture.
-"""
+"""Least depth of a landmark: nearer to the camera, or behind it, it has no place in a picture."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

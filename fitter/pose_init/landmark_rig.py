@@ -18,7 +18,7 @@ from fitter.numerics.rotations import rotation_matrices
 from fitter.pose_init._landmark_kernels import Rig, pose_rig
 
 _MODELS = 4
-"""How many models' rigs are kept."""
+"""Number of models whose rigs are kept."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -12,7 +12,7 @@ from fitter.render import _contour_kernels
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, NEAR_PLANE_M, Rendering
 
 BEYOND_RIM_PX = 1.5
-"""How far outside an edge to look for what it borders on: past the pixel the rim itself may own."""
+"""Distance outside an edge to read its neighbour at: past the pixel the rim itself may own."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

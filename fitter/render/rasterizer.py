@@ -17,7 +17,7 @@ LEAST_AREA_PX = 1e-9
 """Twice the area under which a triangle's depth gradient is numerically meaningless."""
 
 DEPTH_TOLERANCE_M = 0.005
-"""How far behind the z-buffer a point of the surface may seem to lie and still be seen: depth is
+"""Largest depth of a surface point behind the z-buffer at which it still counts as seen: depth is
 held at pixel centres, and a surface turned 60 degrees away sinks 4 mm within the half pixel (2 to
 3 mm at usual scales) between a vertex and the next centre."""
 

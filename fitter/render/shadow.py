@@ -14,7 +14,7 @@ SHADOW_MAP_SIZE_PX = 768
 """Side of the shadow map: 2.5 mm a texel on a standing person."""
 
 DISTANT_LIGHT_M = 1000.0
-"""Where a directional light is put, so that one rasteriser serves both kinds: its rays diverge by
+"""Distance of a directional light, so that one rasteriser serves both kinds: its rays diverge by
 1 mm over the body, and single-precision inverse depth still resolves 0.06 mm there."""
 
 

@@ -39,7 +39,7 @@ COLUMNS: Final = (
     ("Waist size (cm)", "waist_girth_navel"),
     ("Body weight (kg)", "weight"),
 )
-"""Of the paper's Table 1, in its order."""
+"""Columns of the paper's Table 1, in its order."""
 
 _WORST_CM: Final = 5.0
 _STOPS: Final = np.array(

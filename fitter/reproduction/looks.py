@@ -33,7 +33,7 @@ _ROW_PX: Final = 300
 
 TEXTURE_SIZE: Final = 1024
 _MOMENTS: Final = (0.0, 0.17, 0.42)
-"""Of a motion, as shares of its length."""
+"""Moments of a motion, as shares of its length."""
 
 _DEGREES: Final = (25.0, 60.0, -30.0)
 _FACTOR: Final = 2.0

@@ -43,7 +43,7 @@ class Figure:
 Levels = UInt8[np.ndarray, "_ _ 3"]
 
 HEIGHT_PX: Final = 380
-"""Of the panels of a row."""
+"""Height of the panels of a row."""
 
 BODY_WIDTH_PX: Final = 230
 

@@ -29,7 +29,7 @@ PART_NAMES: Final = _MIDDLE + tuple(
 """As the body model names its parts."""
 
 WAIST_ALONG, CHEST_ALONG = 0.2, 0.58
-"""Where from the hips to the shoulders pelvis ends and chest begins."""
+"""Shares of the way from the hips to the shoulders at which pelvis ends and chest begins."""
 
 BEYOND_JOINT: Final = 0.35
 """A hand beyond the wrist, of the forearm's length; below the hips the pelvis, of the trunk's, half
@@ -39,7 +39,7 @@ _JOINTS: Final[Mapping[str, str]] = {
     "upper_arm": "shoulder", "forearm": "elbow", "hand": "wrist",
     "thigh": "hip", "shin": "knee", "foot": "ankle",
 }  # fmt: skip
-"""Where parts begin, by the points' names."""
+"""Joints at which parts begin, by the points' names."""
 
 
 def part_joints(points: Mapping[str, Place]) -> dict[str, Place]:
@@ -173,7 +173,7 @@ def clicked_bones(clicks: Mapping[str, Click]) -> Float[np.ndarray, "b 2 2"]:
 
 
 FOOT_SHARE = 0.8
-"""How far toward the model's toes a foot is trusted: feet differ in length and direction."""
+"""Trusted share of the model's foot, from the ankle: feet differ in length and direction."""
 
 
 def foot_bones(

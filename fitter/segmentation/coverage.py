@@ -31,7 +31,7 @@ REGIONS: Final[Mapping[str, tuple[str, ...]]] = {
 """Parts of the body model whose share of skin is looked at."""
 
 SAME_COLOUR: Final = 0.04
-"""How often a garment has about the colour of its wearer's skin."""
+"""Probability that a garment has about the colour of its wearer's skin."""
 
 _OUTLIERS: Final = 0.05
 
@@ -153,7 +153,7 @@ _AS_SKIN: Final[Mapping[Covers, Mapping[str, tuple[float, float]]]] = {
     Covers.BOTTOM: {"thighs": (0.85, 5.0)},
 }
 POOR_LIGHT: Final = 0.15
-"""How often less of bare skin shows its colour than in even light: gloss, shadows, other limbs."""
+"""Probability of less skin colour on bare skin than in even light: gloss, shadows, other limbs."""
 
 _IN_POOR_LIGHT: Final = (0.4, 2.5)
 _BARE_FROM: Final = 0.3
@@ -161,15 +161,15 @@ _LOWEST, _HIGHEST = 0.005, 0.995
 
 _UNDER_BOTTOM: Final = frozenset({"pelvis", "thigh", "shin", "foot"})
 _LIKE_SKIN: Final[Mapping[str, float]] = {"chest": 0.9, "spine": 1.0, "upper_arm": 0.5}
-"""How much of a part a top hides."""
+"""Share of a part that a top hides."""
 
 _BELIEVED: Final[Mapping[str, float]] = {"chest": 0.5, "spine": 0.1}
 """Under a top skin shows at the neckline at most: its colour elsewhere is the garment's."""
 
 _AT_MIDRIFF: Final = 0.9
-"""Of chest and waist where a top leaves the midriff bare: open vests and short tops. How often
-people wear such is a guess. Below a chest of which a quarter is skin a midriff is bare with
-probability 0.6, and was with 0.2 to 0.3 where no outfit had one."""
+"""Share of chest and waist in sight where a top leaves the midriff bare: open vests and short tops.
+The frequency of such tops is a guess. Below a chest of which a quarter is skin a midriff is bare
+with probability 0.6, and was with 0.2 to 0.3 where no outfit had one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

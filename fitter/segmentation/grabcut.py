@@ -35,7 +35,7 @@ overlap with the truth by 0.960, 0.962 and 0.963 after two, three and four. Abou
 mask, whose border is sought in a narrow band, it is 0.970 after three and after four."""
 
 CUTS_FROM_KNOWN = 1
-"""How many of the cuts learn the colours from the known pixels alone.
+"""Number of cuts that learn the colours from the known pixels alone.
 
 OpenCV's GrabCut learns from the band at once, by its probable sides; background inside the first
 body is then learnt as the person's colour, and the reverse. Over the same tri-maps and four cuts
@@ -51,7 +51,7 @@ FIRST_LEARNT_EVERY = 4
 """The mixtures are first made from every fourth of these colours: they only start the others."""
 
 SURROUNDINGS_SHARE = 0.15
-"""How much sure background to show GrabCut around the band, as a share of the band's longer side:
+"""Margin of sure background shown to GrabCut around the band, as a share of the band's longer side:
 what has to be told from the skin is mostly the background next to the person, and the time grows
 with the area."""
 

@@ -40,7 +40,7 @@ LEVELS: Final = (
 INDEPENDENT: Final = 2.0
 _ENOUGH_OF_SHINS: Final = 1.0
 _LOOSE_LEGS: Final = 0.8
-"""How often what covers legs is loose."""
+"""Prior probability that what covers legs is loose."""
 
 _LEAST_LENGTH_M = 0.15
 """A bone that is seen shorter points at the camera, where its reaches mean nothing."""
@@ -49,8 +49,8 @@ _FARTHEST_M = 0.25
 _STEP_PX = 0.5
 
 _STRETCH: Final = np.linspace(-0.07, 0.07, 9)
-"""Where a level's reach is taken, of the bone's length; the quarter that differs most on either
-side is left out."""
+"""Places about a level where its reach is taken, as shares of the bone's length; the quarter that
+differs most on either side is left out."""
 _LEFT_OUT: Final = 0.25
 
 

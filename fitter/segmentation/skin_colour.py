@@ -27,8 +27,8 @@ BARE_SHARE: Mapping[str, float] = {
     "head": 0.8, "neck": 0.7, "hand": 0.9, "forearm": 0.5, "upper_arm": 0.25, "chest": 0.1,
     "spine": 0.05, "pelvis": 0.03, "thigh": 0.15, "shin": 0.35, "foot": 0.4,
 }  # fmt: skip
-"""How often a part is bare on people in loose clothes, by its name without the side. Guesses: low
-on the trunk, so that cloth of the skin's colour is not mistaken for skin."""
+"""Probability that a part is bare on people in loose clothes, by its name without the side.
+Guesses: low on the trunk, so that cloth of the skin's colour is not mistaken for skin."""
 
 FACE_RADIUS_M = 0.04
 """Around the nose: cheeks, lips, the lower forehead. Hair begins farther out."""

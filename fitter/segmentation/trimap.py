@@ -25,7 +25,7 @@ Erosion by the band leaves nothing of the limbs, and GrabCut gives what it has n
 background."""
 
 LEANING_SHARE = 0.5
-"""How far inside the silhouette, as a share of the band, a pixel must lie to start as foreground.
+"""Least depth inside the silhouette, as a share of the band, of pixels that start as foreground.
 What the first body covers wrongly lies along its border; if GrabCut learns it as the person's
 colour it stays, as the dark gap between the legs of a figure on a dark background did."""
 

@@ -119,8 +119,8 @@ def _range(values: np.ndarray) -> dict[str, float]:
 GENDERS = ("female", "male")
 
 INNER_POINTS_STREAM, VOLUMES_STREAM = 1, 2
-"""Of the seed: poses that landmarks are fitted in, and poses whose volume is asked for, are not
-those of the pose term."""
+"""Streams of the seed: poses that landmarks are fitted in, and poses whose volume is asked for, are
+not those of the pose term."""
 
 KEPT_MEASUREMENTS = (
     "chestcircumference",

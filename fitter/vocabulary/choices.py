@@ -18,7 +18,7 @@ class Cues(StrEnum):
 
 
 class OptimizerKind(StrEnum):
-    """How the energy is minimised: fast, or as the paper does."""
+    """Optimiser of the energy: a fast one, or the paper's."""
 
     GAUSS_NEWTON = "gauss_newton"
     SIMPLEX = "simplex"
@@ -34,7 +34,7 @@ class PaperEnergy(StrEnum):
 
 
 class SegmentationKind(StrEnum):
-    """How the person is cut out where the caller sends no mask.
+    """Method of cutting out the person where the caller sends no mask.
 
     ``seeded_grabcut``: from a tri-map round the detector's mask, where the detector is installed
     and finds the person. ``grabcut``: from a tri-map round the body, as in the paper.
@@ -52,7 +52,7 @@ class LightKind(StrEnum):
 
 
 class Clothing(StrEnum):
-    """How clothes lie.
+    """Looseness of the clothes.
 
     ``auto``: what is covered, and whether loosely, is found in the picture. ``tight``: the outline
     is the body's own. ``loose``: the outline bounds the body from outside, by an ease that is not
@@ -66,14 +66,14 @@ class Clothing(StrEnum):
 
 
 class ClothedRegion(StrEnum):
-    """What clothing can be said of alone: trunk with arms, and seat with legs."""
+    """Region whose clothing can be given on its own: trunk with arms, or seat with legs."""
 
     UPPER = "upper"
     LOWER = "lower"
 
 
 class Covering(StrEnum):
-    """How a region is covered: not by more than underwear, closely, or at a distance."""
+    """Cover of a region: no more than underwear, close to the body, or at a distance."""
 
     BARE = "bare"
     CLOSE = "close"
@@ -81,7 +81,7 @@ class Covering(StrEnum):
 
 
 class BodyRegion(StrEnum):
-    """Of what a result says how it is covered; the head by hair or a hat."""
+    """Region of the body whose cover a result reports; that of the head is hair or a hat."""
 
     HEAD = "head"
     UPPER = "upper"
@@ -92,7 +92,7 @@ class BodyRegion(StrEnum):
 
 
 class Posture(StrEnum):
-    """What is known of how the person stands.
+    """Knowledge of how the person stands.
 
     ``measured`` people were asked to stand upright, straight and still on both feet.
     """

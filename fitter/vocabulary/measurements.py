@@ -20,8 +20,8 @@ CENTIMETRES_PER_METRE: Final = 100.0
 
 LEAST_HEIGHT_M: Final = 1.2
 MOST_HEIGHT_M: Final = 2.3
-"""What a request may say of a height, whichever request. What is within and yet unusual is taken
-with a warning (:mod:`fitter.population.conditional_shape`)."""
+"""Bounds on a height in any request. A height that is within and yet unusual is taken with a
+warning (:mod:`fitter.population.conditional_shape`)."""
 
 
 def _units() -> Mapping[str, str]:
@@ -71,7 +71,7 @@ CHIEF = (
     "inseam",
     "outseam",
 )
-"""What most people ask for: shown first, where all are too many."""
+"""Measurements that most people ask for: shown first, where all are too many."""
 
 _OVERALL = ("stature", "weight")
 

@@ -7,7 +7,7 @@ from fitter.vocabulary.choices import BodyRegion, Covering, Facing
 
 
 class Outcome(StrEnum):
-    """How the optimisation ended."""
+    """Outcome of the optimisation."""
 
     CONVERGED = "converged"
     EVALUATION_LIMIT = "evaluation_limit"
@@ -35,7 +35,7 @@ class FacingSource(StrEnum):
 
 
 class FocalLengthSource(StrEnum):
-    """Where the focal length came from, best first."""
+    """Sources of the focal length, best first."""
 
     CALLER = "caller"
     EXIF_35MM = "exif_35mm_equivalent"
@@ -44,7 +44,7 @@ class FocalLengthSource(StrEnum):
 
 
 class StanceKind(StrEnum):
-    """How a person stands: on both feet, striding or on one foot, or neither."""
+    """Stance of a person: on both feet, striding or on one foot, or neither."""
 
     STANDING = "standing"
     STRIDING = "striding"

@@ -58,7 +58,7 @@ the trunk's length: nearer to profile, a few pixels of clicking error decide the
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointFault:
-    """What is wrong with points: the request's field, a stable code, why, and what to do."""
+    """Fault in points: the request's field, a stable code, the reason, and the remedy."""
 
     code: str
     field: str
@@ -69,7 +69,7 @@ class PointFault:
 def place_faults(
     places: Mapping[str, tuple[float, float]], *, width: int, height: int
 ) -> Iterator[PointFault]:
-    """What is wrong with single points of an upright picture of ``width`` x ``height`` pixels.
+    """Faults in single points of an upright picture of ``width`` x ``height`` pixels.
 
     ``point-unknown``, ``point-not-finite`` or ``point-outside-image``.
     """

@@ -14,7 +14,7 @@ Box = tuple[float, float, float, float]
 
 
 class Severity(StrEnum):
-    """What a remark means.
+    """Severity of a remark.
 
     Findings: ``blocks``, the picture is to be taken again; ``harms``, measurements are worse.
     Others: ``warns``, to be looked at; ``assumed``, for want of a word from the caller;

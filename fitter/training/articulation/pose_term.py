@@ -45,7 +45,7 @@ from fitter.training.articulation.parts import (
 )
 
 TURNS = 3
-"""How often P and s are solved in turn. The second turn changes the error by 0.3 %, the third by
+"""Rounds in which P and s are solved in turn. The second changes the error by 0.3 %, the third by
 less than 0.01 %."""
 
 STRENGTH_RIDGE = 1e-2

@@ -101,7 +101,7 @@ _CALM_SHARE = 0.35
 """Share of joints kept within a quarter of their range: pictures show more calm than bent ones."""
 
 SIDES = {"left": np.array([1.0, 1.0, 1.0]), "right": np.array([1.0, -1.0, -1.0])}
-"""What makes a left limb's turn that of either side."""
+"""Signs by which a left limb's turn becomes that of either side."""
 
 
 def random_pose(rng: np.random.Generator) -> Pose:

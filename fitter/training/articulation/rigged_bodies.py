@@ -32,13 +32,13 @@ from fitter.training.makehuman.meshes import BaseMesh
 
 FINGERS = (2, 3, 4, 5)
 JOINT_SHARES = (0.9, 1.2, 0.8)
-"""How the bend is shared by a finger's three joints, knuckle first."""
+"""Shares of the bend in a finger's three joints, knuckle first."""
 
 SPREAD_TAKEN = 0.8
 """Share of the fan that the fingers form at rest by which they are brought together."""
 
 THUMB_DEGREES = 18.0
-"""How far the thumb is brought to the fingers."""
+"""Angle by which the thumb is brought to the fingers."""
 
 RELAXED_DEGREES = 16.0
 """Mean bend of a finger joint beyond the rig's rest, which is bent by some ten degrees."""

@@ -35,15 +35,15 @@ ARM_BONES = ("upperarm01", "upperarm02")
 
 TRUNK_SKIN_GIVEN = 0.9
 TRUNK_OUT, TRUNK_UP_M = (0.2, 1.0), (-0.14, 0.0)
-"""Where the share of trunk skin that follows the girdle grows from none to all that is given."""
+"""Ranges over which the share of trunk skin given to the girdle grows from none to all of it."""
 
 BLADE_OUT = (0.45, 0.95)
-"""Where that skin goes over from collar bone to blade."""
+"""Range over which that skin goes over from collar bone to blade."""
 
 CAP_GIVEN = 0.6
 CAP_OUT, CAP_UP_M = (0.9, 2.3), (-0.05, 0.03)
-"""Where the share of arm skin that follows the blade falls to none, and where it begins. A larger
-share, or one that falls faster, leaves a dent in the deltoid of an arm overhead."""
+"""Ranges over which the share of arm skin that follows the blade falls to none, and begins. A
+larger share, or one that falls faster, leaves a dent in the deltoid of an arm overhead."""
 
 
 def with_shoulder_girdle(rig: Rig, base: BaseMesh) -> Rig:

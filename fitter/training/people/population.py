@@ -39,7 +39,7 @@ PACKAGED_PEOPLE = Path(__file__).parent / "data"
 """The committed populations of both genders: the packaged models learned from those of seed 1."""
 
 PLACEMENTS = 3
-"""How often the cuts are placed anew on the subject; a third brings the mean residual of the worst
+"""Placements of the cuts on the subject, each anew; a third brings the mean residual of the worst
 measurement 3 mm nearer than two. What was reached is measured on one more placement."""
 
 TIGHT = 0.1
@@ -178,7 +178,7 @@ def draw_traits(age: float, generator: np.random.Generator) -> Traits:
 
 
 _KEPT = [field.name for field in fields(Population) if field.name != "source_vertices"]
-"""What a file keeps: the vertices follow from the rest."""
+"""Fields that a file keeps: the vertices follow from the rest."""
 
 
 def population_path(folder: Path, gender: str, seed: int) -> Path:

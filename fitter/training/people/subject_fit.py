@@ -70,11 +70,11 @@ def volume_and_pull(vertices, triangles):
 
 
 DENSITY_KG_PER_M3 = 1000.0
-"""Of the whole body (section 6 takes the density of water)."""
+"""Density of the whole body (section 6 takes that of water)."""
 
 MAX_EVALUATIONS = 40
 RELATIVE_DECREASE = 1e-4
-"""Of the cost: see :func:`fitter.numerics.damped_descent.descend`."""
+"""Decrease of the cost, relative: see :func:`fitter.numerics.damped_descent.descend`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -22,7 +22,7 @@ from fitter.training.shapes.principal_shapes import centred, project, vertex_mas
 
 POSED_EXAMPLES = 200
 _SEED = 20090929
-"""Of the held-out poses; training draws its own from the build's seed."""
+"""Seed of the held-out poses; training draws its own from the build's seed."""
 
 
 class VertexError(NamedTuple):

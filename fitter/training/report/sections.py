@@ -16,15 +16,15 @@ from fitter.training.report.survey_comparison import (
 )
 
 AGREED = 1e-3
-"""Of every held-out figure: micrometres, and thousandths of a correlation. Single precision is
-finer."""
+"""Tolerance of every held-out figure: micrometres, and thousandths of a correlation. Single
+precision is finer."""
 
 GOALS_MM: Mapping[str, float] = {
     "shape_mm": 3.0,
     "height_change_at_3_deviations_mm": 1.0,
     "posed_mm": 4.5,
 }
-"""What a model of twenty axes must not exceed on held-out subjects."""
+"""Limits that a model of twenty axes must not exceed on held-out subjects."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

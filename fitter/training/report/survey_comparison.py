@@ -95,7 +95,7 @@ def load_moments(path: Path, gender: str) -> SurveyMoments:
 
 PEOPLE = 1000
 GIVEN = ("stature", "weight")
-"""What people are weighted by, as their logarithms."""
+"""Measurements by whose logarithms people are weighted."""
 
 _SEED = 20120101
 

@@ -26,7 +26,7 @@ LONGEST_M = 0.014
 """Edges of this length and more stay: trunk and limbs keep theirs, 16 to 32 mm."""
 
 ERROR_M = 0.001
-"""How far the mean body's surface may move: a third of a pixel, or a fifth, of usual pictures."""
+"""Largest move of the mean body's surface: a third of a pixel, or a fifth, of usual pictures."""
 
 
 def lighter_mesh(
