@@ -177,7 +177,9 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
             )
 
 
-def _person(header: Mapping[str, str | int | None], arrays: Mapping[str, np.ndarray]) -> FittedPerson:
+def _person(
+    header: Mapping[str, str | int | None], arrays: Mapping[str, np.ndarray]
+) -> FittedPerson:
     focal_length, centre_x, centre_y, width, height = arrays["camera"].tolist()
     light = reflectance = tilt = None
     if header["light"] is not None:
