@@ -126,7 +126,7 @@ def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
         focal_length_px=900.0,
     )
     person = Person(gender=Gender.FEMALE, height_m=1.7)
-    found = initial_body(person, view, body, width=720, height=960, exif_focal_length_35mm=None)
+    found = initial_body(person, view, body, width=720, height=960)
     placed = regress(model.landmarks, evaluator.vertices(found.body))
     assert np.linalg.norm(placed - joints, axis=1).mean() < 0.1
     standing = BodyParameters(
