@@ -154,7 +154,9 @@ def start_swagger() -> Response:
 def mount_files(app: FastAPI) -> None:
     """Serve the files of all pages."""
     app.mount("/page", _PageFiles(directory=PAGE))
-    app.mount("/docs", _Files(packages=[("fastapi_swagger", "resources")]))
+    # Installers may link a package's files from elsewhere.
+    swagger_files = _Files(packages=[("fastapi_swagger", "resources")], follow_symlink=True)
+    app.mount("/docs", swagger_files)
     mount_site(app, SITE)
 
 

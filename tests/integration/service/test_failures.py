@@ -4,7 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG
+from tests.integration.service.fake_pipeline import UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
     PATIENCE_S,
     REQUEST,
@@ -16,7 +16,6 @@ from tests.integration.service.harness import (
     running_service,
     running_worker,
 )
-from tests.integration.service.test_bad_input import kept
 
 
 def problem_of(service: Service, script: dict[str, object]) -> dict[str, object]:
@@ -33,34 +32,6 @@ def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: 
     assert problem["code"] == "image-truncated"
     assert problem["detail"] == "views.0.image: The picture ends too early."
     assert problem["remedy"] == "Send the whole file."
-
-
-def test_contradictory_measurements_are_refused_before_there_is_a_job(service: Service):
-    before = kept(service)
-    # Once it answers, the estimator is up.
-    eventually(
-        lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
-        what="the estimator answers",
-    )
-    answer = service.post(request=REQUEST | {"weight_kg": NOBODYS_WEIGHT_KG})
-    problem = answer.json()
-    assert (answer.status_code, problem["type"]) == (422, "/problems/unusable-input")
-    assert (problem["field"], problem["code"]) == ("weight_kg", "contradictory-measurements")
-    assert problem["remedy"]
-    assert kept(service) == before
-
-
-def test_a_key_whose_fit_was_refused_may_be_used_again(service: Service):
-    headers = {"Idempotency-Key": "refused-first"}
-    eventually(
-        lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
-        what="the estimator answers",
-    )
-    refused = service.post(request=REQUEST | {"weight_kg": NOBODYS_WEIGHT_KG}, headers=headers)
-    assert refused.status_code == 422
-    accepted = service.post(request=REQUEST | {"weight_kg": 80.0}, headers=headers)
-    assert accepted.status_code == 202
-    assert service.ended(accepted.headers["Location"])["state"] == "succeeded"
 
 
 def test_contradictory_measurements_end_with_a_422_that_names_the_field(service: Service):
