@@ -3,7 +3,6 @@
 import os
 import signal
 import threading
-from multiprocessing.connection import Connection
 from pathlib import Path
 
 import pytest
@@ -11,13 +10,14 @@ import pytest
 from api_schemas.questions import BodyEstimate, BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.compute import lanes
-from service.compute.fork_server import ForkServer, end
+from service.compute.fork_server import ForkServer
 from service.compute.lanes import QuickLane
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.compute.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
 from service.compute.tasks import child_setup
 from service.settings import Settings
 from tests.integration.service.fake_answers import GATE, GLB
+from tests.integration.service.fork_servers import started_anew
 from tests.integration.service.harness import PATIENCE_S, eventually, is_running
 from tests.process_table import processes_with
 
@@ -42,17 +42,10 @@ def gate(tmp_path_factory):
 def server(gate):
     with pytest.MonkeyPatch.context() as environment:
         environment.setenv(GATE, str(gate))
-        server = ForkServer(SETUP.tasks)
         # One that runs already knows of no gate.
-        connection, process = server.start(tell_server)
-        os.kill(connection.recv(), signal.SIGKILL)
-        end(connection, process)
+        server = started_anew(ForkServer(SETUP.tasks))
         server.begin_preloading()
         yield server
-
-
-def tell_server(connection: Connection) -> None:
-    connection.send(os.getppid())
 
 
 @pytest.fixture

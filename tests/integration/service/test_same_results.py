@@ -12,6 +12,7 @@ from service.compute.tasks import OPTIONS, PRODUCT, child_setup
 from service.jobs.inputs import IMAGE, RESULT, of_view, product_inputs
 from service.jobs.records import FIT
 from service.settings import Settings
+from tests.integration.service.fork_servers import started_anew
 from tests.submissions import checked, small_submissions
 
 MAX_PIXELS = 10_000_000
@@ -25,7 +26,7 @@ Job = tuple[str, dict[str, bytes]]
 
 @pytest.fixture(scope="module")
 def processes() -> ForkServer:
-    return ForkServer("service.compute.preload")
+    return started_anew(ForkServer("service.compute.preload"))
 
 
 @pytest.fixture(scope="module")
