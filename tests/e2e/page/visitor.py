@@ -139,10 +139,12 @@ class Visitor:
         self.wait_for_stage()
 
     def correct(self) -> None:
-        """Unfold what can be corrected before a fit."""
-        fold = self.page.locator(".corrections")
-        if not fold.evaluate("fold => fold.open"):
-            fold.locator("> summary").click()
+        """Unfold what can be corrected before a fit; the page does so too, where nobody is found.
+
+        Looked and clicked in one turn of the page, or the click could fold what it has unfolded.
+        """
+        head = self.page.locator(".corrections > summary")
+        head.evaluate("head => head.parentElement.open || head.click()")
         self.page.get_by_role("heading", name="Points", exact=True).wait_for()
 
     def unfold_for_experts(self) -> None:
