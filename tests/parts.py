@@ -31,7 +31,7 @@ LONGEST = (
     "integration/service/test_full_disk.py",
     "integration/service/test_many_machines.py",
     "integration/service",
-    "unit/evaluation/test_data.py",
+    "unit/accuracy/test_data.py",
     "unit/training/test_kept_populations.py",
     # Of `make test` and `make test-shapes`.
     "unit/fits/test_fit.py",

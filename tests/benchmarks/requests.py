@@ -7,9 +7,9 @@ from PIL import Image as PillowImage
 from fitter.fits.pipeline import fit
 from fitter.request import Click, FitRequest
 from fitter.vocabulary.choices import Cues
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
-from tests.evaluation.suite import fit_request
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import read_case
+from tests.accuracy.suite import fit_request
 from tests.one_picture import changed
 
 _WARMING = 2

@@ -7,11 +7,11 @@ from fitter.fits.pipeline import fit
 from fitter.request import FitRequest
 from fitter.training.report.survey_comparison import note_lines
 from fitter.vocabulary.choices import Cues, ViewKind
+from tests.accuracy.files import read_case
+from tests.accuracy.phone_cases import PHONE_PAIRS, PhonePair
+from tests.accuracy.suite import fit_request
 from tests.benchmarks.requests import warm_up
 from tests.benchmarks.spent import processor_s
-from tests.evaluation.files import read_case
-from tests.evaluation.phone_cases import PHONE_PAIRS, PhonePair
-from tests.evaluation.suite import fit_request
 from tests.one_picture import changed, together
 
 

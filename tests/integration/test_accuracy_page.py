@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.evaluation.command_line import parser
+from tests.accuracy.command_line import parser
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "accuracy.md").read_text()
@@ -16,7 +16,7 @@ TABLES = (ROOT / "service" / "docs" / "accuracy_tables.md").read_text()
 ROUNDED = 0.051
 """How far a figure to one place may lie from the same one to two."""
 
-OPTIONS = sorted(set(re.findall(r"`(?:python -m tests\.evaluation )?(--[^`]+)`", PAGE)))
+OPTIONS = sorted(set(re.findall(r"`(?:python -m tests\.accuracy )?(--[^`]+)`", PAGE)))
 
 
 def cells(text: str, row: str) -> list[str]:

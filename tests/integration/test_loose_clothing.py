@@ -10,9 +10,9 @@ from fitter.fits.pipeline import fit
 from fitter.request import Clothing, Cues
 from fitter.result import FitResult
 from fitter.vocabulary.remarks import Code
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import CaseFiles, read_case
-from tests.evaluation.suite import fit_request
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import CaseFiles, read_case
+from tests.accuracy.suite import fit_request
 from tests.one_picture import changed
 
 WAIST, SMALLEST = "waist_girth_navel", "waist_girth_smallest"

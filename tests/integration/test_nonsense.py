@@ -8,10 +8,10 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Outcome, Verdict
 from fitter.vocabulary.remarks import Code, Severity
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
-from tests.evaluation.nonsense import DONORS, nonsense
-from tests.evaluation.suite import fit_request
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import read_case
+from tests.accuracy.nonsense import DONORS, nonsense
+from tests.accuracy.suite import fit_request
 from tests.one_picture import changed
 from tests.shared_data import SHARED_DATA, needs_shared
 

@@ -15,8 +15,8 @@ from PIL import Image as PillowImage
 from fitter.fits.pipeline import fit
 from fitter.request import FitRequest
 from fitter.result import FitResult
-from tests.evaluation.runs import picture_of
-from tests.evaluation.table import MEASUREMENTS
+from tests.accuracy.runs import picture_of
+from tests.accuracy.table import MEASUREMENTS
 from tests.one_picture import changed
 
 Picture = UInt8[np.ndarray, "h w 3"]

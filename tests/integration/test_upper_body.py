@@ -10,10 +10,10 @@ from fitter.request import Cues
 from fitter.result import FitResult
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.remarks import Code, Severity
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import CaseFiles, read_case
-from tests.evaluation.landmark_points import packaged_model
-from tests.evaluation.suite import fit_request
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import CaseFiles, read_case
+from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.suite import fit_request
 from tests.one_picture import changed
 
 pytestmark = pytest.mark.slow

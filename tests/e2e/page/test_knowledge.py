@@ -14,7 +14,7 @@ from service.demo_data.sample import FOLDER
 from tests.e2e.page.visitor import SAMPLE_SIZE, Visitor
 from tests.e2e.service import REPOSITORY
 
-MASK = REPOSITORY / "tests" / "evaluation" / "data" / "pictures" / "demo_person.png"
+MASK = REPOSITORY / "tests" / "accuracy" / "data" / "pictures" / "demo_person.png"
 
 
 @pytest.fixture

@@ -13,9 +13,9 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Route, expect
 
+from tests.accuracy.files import PICTURES_FOLDER
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.visitor import DESK, PHONE, Visitor
-from tests.evaluation.files import PICTURES_FOLDER
 
 __all__ = ["axe"]
 

@@ -15,7 +15,7 @@ from fitter.detection.detector import (
 )
 from fitter.detection.person_detector import PersonDetector
 from fitter.request import Click
-from tests.evaluation.files import PICTURES_FOLDER
+from tests.accuracy.files import PICTURES_FOLDER
 
 STANDING, OTHER = "man_young_thin_standing", "man_old_heavy_standing"
 

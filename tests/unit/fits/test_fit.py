@@ -16,13 +16,13 @@ from fitter.result import FitResult, before_shading
 from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.remarks import Code
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import read_case
+from tests.accuracy.phone_cases import PHONE_PAIRS
+from tests.accuracy.runs import picture_of
+from tests.accuracy.spoilt import Asked, spoilt_request
+from tests.accuracy.suite import fit_request
 from tests.benchmarks.requests import resized
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
-from tests.evaluation.phone_cases import PHONE_PAIRS
-from tests.evaluation.runs import picture_of
-from tests.evaluation.spoilt import Asked, spoilt_request
-from tests.evaluation.suite import fit_request
 from tests.one_picture import changed, together
 
 STANDING, TURNED = "woman_young_heavy_standing", "woman_young_heavy_turned"

@@ -17,10 +17,10 @@ from fitter.render.rasterizer import render
 from fitter.request import Choices, FitRequest, KnownMeasurement, Paper
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender, OptimizerKind, PaperEnergy
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import read_case
+from tests.accuracy.suite import fit_request
 from tests.benchmarks.requests import resized
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
-from tests.evaluation.suite import fit_request
 from tests.one_picture import together
 
 E1 = frozenset({PaperEnergy.SILHOUETTE, PaperEnergy.EDGES, PaperEnergy.PENETRATION})

@@ -11,7 +11,7 @@ from fitter.fits.proposal import Proposal, propose
 from fitter.observation.observation import observe
 from fitter.request import View
 from service.demo_data.sample import load_sample
-from tests.evaluation.files import PICTURES_FOLDER
+from tests.accuracy.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
 
 CASE = "man_young_thin_standing"

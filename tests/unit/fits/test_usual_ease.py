@@ -13,7 +13,7 @@ from fitter.fits.clothing import (
 )
 from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender
-from tests.evaluation.landmark_points import packaged_model
+from tests.accuracy.landmark_points import packaged_model
 
 
 @pytest.fixture(scope="module", params=list(Gender))

@@ -12,7 +12,7 @@ from fitter.errors import InvalidInputError
 from fitter.observation.observation import Observation, observe
 from fitter.request import Click, View
 from fitter.vocabulary.choices import SegmentationKind
-from tests.evaluation.files import PICTURES_FOLDER
+from tests.accuracy.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
 
 CASE = "man_young_thin_standing"

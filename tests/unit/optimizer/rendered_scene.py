@@ -1,7 +1,7 @@
 """A picture of a known body under a known light, made with the model that will read it.
 
 Good for testing optimisers, which must come back to what they are given; it says nothing of
-accuracy on people, for which tests/evaluation has other bodies and another renderer.
+accuracy on people, for which tests/accuracy has other bodies and another renderer.
 """
 
 from dataclasses import dataclass

@@ -15,11 +15,11 @@ from fitter.reproduction.drawing import (
 )
 from service.commands.paper import packaged_pictures
 from service.settings import Settings
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import PICTURES_FOLDER, read_case
-from tests.evaluation.people_table import PEOPLE
-from tests.evaluation.scene import Half
-from tests.evaluation.subject import PERSON, write_subject
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import PICTURES_FOLDER, read_case
+from tests.accuracy.people_table import PEOPLE
+from tests.accuracy.scene import Half
+from tests.accuracy.subject import PERSON, write_subject
 
 
 def test_cells_are_those_that_the_paper_prints():

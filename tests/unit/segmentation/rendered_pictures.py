@@ -7,8 +7,8 @@ import numpy as np
 from PIL import Image as PillowImage
 
 from fitter.segmentation.trimap import first_band, trimap
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
+from tests.accuracy.cases import CASES
+from tests.accuracy.files import read_case
 
 PICTURES = tuple(CASES)[:3]
 """The packaged sample and the first two of the suite."""

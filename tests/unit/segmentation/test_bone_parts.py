@@ -4,7 +4,7 @@ import numpy as np
 
 from fitter.segmentation.bones import PART_NAMES, bone_parts, part_joints
 from fitter.vocabulary.choices import Gender
-from tests.evaluation.landmark_points import packaged_model
+from tests.accuracy.landmark_points import packaged_model
 from tests.unit.capture.made_up import FRONT, STATURE_PX, outline
 
 PERSON = outline(dict(FRONT)) > 0

@@ -4,10 +4,10 @@ import pytest
 
 from fitter.segmentation.bones import BONES
 from fitter.vocabulary.choices import Cues
-from tests.evaluation.cases import CASES
-from tests.evaluation.clicks import CLICK_DEVIATION_PX
-from tests.evaluation.files import read_case
-from tests.evaluation.suite import fit_request
+from tests.accuracy.cases import CASES
+from tests.accuracy.clicks import CLICK_DEVIATION_PX
+from tests.accuracy.files import read_case
+from tests.accuracy.suite import fit_request
 
 PLACES = np.linspace(0.0, 1.0, 100)[:, None]
 
