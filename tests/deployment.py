@@ -32,7 +32,6 @@ class Kind(StrEnum):
     FIT = "fit"
     FORK_SERVER = "fork server"
     ESTIMATOR = "estimator"
-    HEADER = "header"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +70,6 @@ class Deployment:
     database_url: str | None = None
     settings: Mapping[str, object] = field(default_factory=dict[str, object])
     workers: int = 1
-    log_to: Path | None = None
     ended_unasked: int = 0
 
     def __post_init__(self) -> None:
@@ -86,22 +84,14 @@ class Deployment:
 
     @property
     def log(self) -> Path:
-        """What all processes have to say: kept in the folder, unless it is to be elsewhere."""
-        return self.log_to or self.folder / "log.txt"
+        """What all processes have to say."""
+        return self.folder / "log.txt"
 
     def start(self) -> None:
         """Start everything."""
         self.folder.mkdir(parents=True, exist_ok=True)
         for command in (self.commands.serve, *[self.commands.worker] * self.workers):
             self._start(command)
-
-    def start_worker(self) -> None:
-        """Start a further worker."""
-        self._start(self.commands.worker)
-
-    def start_also(self, command: tuple[str, ...]) -> int:
-        """Start a further process of the service, and return its id."""
-        return self._start(command).pid
 
     def keep_running(self) -> None:
         """Start again what has ended."""
@@ -152,7 +142,7 @@ class Deployment:
         """Every process of this service, to the last child."""
         return processes_with(FOLDER_VARIABLE, self.folder)
 
-    def _start(self, command: tuple[str, ...]) -> subprocess.Popen[bytes]:
+    def _start(self, command: tuple[str, ...]) -> None:
         with self.log.open("ab") as log:
             process = subprocess.Popen(
                 command,
@@ -165,7 +155,6 @@ class Deployment:
                 start_new_session=True,
             )
         self._running.append((command, process))
-        return process
 
     def _closed(self, process: subprocess.Popen[bytes]) -> None:
         if process.stdin is not None:
@@ -184,8 +173,6 @@ class Deployment:
 def _kind(process: Process, fork_servers: set[int]) -> Kind | None:
     if process.name in ("estimator", "header"):
         return Kind.ESTIMATOR
-    if process.name == "header":
-        return Kind.HEADER
     if process.pid in fork_servers:
         return Kind.FIT if process.parent in fork_servers else Kind.FORK_SERVER
     for kind, sign in (

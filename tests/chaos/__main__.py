@@ -1,27 +1,20 @@
-"""``python -m tests.chaos``: real fits and products while processes die or what they need does.
+"""``python -m tests.chaos``: real fits and products while processes are killed at random.
 
-Without ``--fault``, processes are killed at random, on SQLite and on Postgres (a database of its
-own on 127.0.0.1:5432). With it, the database server is killed, object storage refuses, a worker's
-host is cut off or a disk fills up, for some seconds each; needs root, and a Postgres server's
-programs. Nothing is faked: the pictures are small and fitted by silhouette and edges, so that a
-hundred jobs take minutes. Exits with 1 if a job was lost, ended twice or otherwise than
-undisturbed, a request was answered otherwise than it should, or anything was left behind.
+On SQLite and on Postgres (a database of its own on 127.0.0.1:5432). Nothing is faked: the pictures
+are small and fitted by silhouette and edges, so that a hundred jobs take minutes. Exits with 1 if a
+job was lost, ended twice or otherwise than undisturbed, or anything was left behind.
 """
 
 import argparse
 import contextlib
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from tests.chaos.caller import Product, Task
-from tests.chaos.outages.scenes import FAULTS
-from tests.chaos.outages.trial import tried
-from tests.chaos.reference import Outcome, references
+from tests.chaos.caller import Outcome, Product, Task, references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
 from tests.deployment import Deployment, Kind
@@ -45,49 +38,20 @@ SHARES = {
     Kind.FORK_SERVER: 0.1,
     Kind.ESTIMATOR: 0.05,
 }
-JOBS_KILLED = 110
-JOBS_OF_A_FAULT = 50
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     fits = small_submissions(PICTURES)
-    if options.fault:
-        return _faults(options, fits)
     products = [Product(of=fits[0], request=each) for each in PRODUCTS]
-    return _kills(options, [task for pair in zip(fits, products, strict=True) for task in pair])
-
-
-def _faults(options: argparse.Namespace, tasks: Sequence[Task]) -> int:
-    folder = Path(tempfile.mkdtemp(prefix="maquette-chaos-"))
-    # Kernels that were just compiled differ from the kept ones in the last digits of some results.
-    subprocess.run([sys.executable, "-m", "service.compute.kernels"], check=True)
-    expected = references(Deployment(folder=folder / "undisturbed"), tasks)
-    status = 0
-    for name in options.fault:
-        _announce(name)
-        place = folder / name
-        figures = tried(
-            FAULTS[name],
-            tasks,
-            expected,
-            jobs=options.jobs or JOBS_OF_A_FAULT,
-            folder=place,
-            seconds=options.seconds,
-        )
-        status |= _told(figures.lines(), figures.faults, place)
-    if not status:
-        shutil.rmtree(folder)
-    return status
-
-
-def _kills(options: argparse.Namespace, tasks: Sequence[Task]) -> int:
+    tasks = [task for pair in zip(fits, products, strict=True) for task in pair]
     kills = {kind: max(1, round(share * options.kills)) for kind, share in SHARES.items()}
-    plan = Plan(jobs=options.jobs or JOBS_KILLED, kills=kills, seed=options.seed)
+    plan = Plan(jobs=options.jobs, kills=kills, seed=options.seed)
     status = 0
     for name in options.database or DATABASES:
-        _announce(f"{name}, seed {plan.seed}")
+        load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
+        print(f"\n{name}, seed {plan.seed} (load averages before: {load})", flush=True)
         folder = Path(tempfile.mkdtemp(prefix="maquette-chaos-"))
         expected = references(Deployment(folder=folder / "undisturbed"), tasks)
         failed = _killed(name, folder, tasks, plan, expected)
@@ -109,11 +73,6 @@ def _killed(
     return _told(judged.lines(), judged.faults, folder)
 
 
-def _announce(what: str) -> None:
-    load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
-    print(f"\n{what} (load averages before: {load})", flush=True)
-
-
 def _told(lines: Iterator[str], faults: Mapping[str, object], folder: Path) -> int:
     for line in lines:
         print(line, flush=True)
@@ -125,17 +84,9 @@ def _told(lines: Iterator[str], faults: Mapping[str, object], folder: Path) -> i
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tests.chaos", description=__doc__)
     parser.add_argument(
-        "--fault", action="append", choices=FAULTS, help="this, instead of kills; may be repeated"
+        "--database", action="append", choices=DATABASES, help="on this alone (default: both)"
     )
-    parser.add_argument(
-        "--seconds", type=float, help="how long a fault lasts (default: each its own)"
-    )
-    parser.add_argument(
-        "--database", action="append", choices=DATABASES, help="kills on this alone (default: both)"
-    )
-    parser.add_argument(
-        "--jobs", type=int, help=f"default: {JOBS_KILLED}, {JOBS_OF_A_FAULT} with a fault"
-    )
+    parser.add_argument("--jobs", type=int, default=110, help="default: %(default)s")
     parser.add_argument("--kills", type=int, default=36, help="default: %(default)s")
     parser.add_argument("--seed", type=int, default=2009, help="default: %(default)s")
     return parser

@@ -6,7 +6,6 @@ import string
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
 from tests.fuzz.products import (
@@ -15,6 +14,7 @@ from tests.fuzz.products import (
     product_body,
     product_form,
 )
+from tests.fuzz.sending import JSON, MULTIPART, RawRequest, head_and_body, multipart
 
 DEEP = 5_000
 

@@ -14,10 +14,9 @@ from typing import Any
 import httpx
 
 from tests.deployment import Deployment, Kind, wait_for
-from tests.fuzz.messages import RawRequest
 from tests.fuzz.products import FIT_ID, OTHER_FIT_ID, PRODUCT_ID, with_ids
 from tests.fuzz.requests import KINDS
-from tests.fuzz.sending import Answer, send
+from tests.fuzz.sending import Answer, RawRequest, send
 from tests.process_table import own_memory_mib
 from tests.submissions import small_submissions
 

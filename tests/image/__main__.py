@@ -12,16 +12,17 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Final
 
-from tests.image import contents
+from tests.image import build as contents
 from tests.image.build import Image, build_base, build_image, open_image
 from tests.image.client import Client, answers, connect
-from tests.image.containers import Container, running
-from tests.image.hosts import (
+from tests.image.containers import (
     ADDRESSES,
     BACK,
     FRONT,
     POSTGRES_PASSWORD,
+    Container,
     entered,
+    running,
     running_postgres,
     two_hosts,
 )

@@ -8,8 +8,7 @@ import sys
 
 import pytest
 
-from tests.chaos.caller import Product, Task
-from tests.chaos.reference import Outcome, references
+from tests.chaos.caller import Outcome, Product, Task, references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
 from tests.deployment import Commands, Deployment, Kind
