@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import UInt8
+from jaxtyping import Float, UInt8
 from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
 from fitter.parameters import Light
 from fitter.vocabulary.choices import LightKind
 from tests.accuracy.clicks import hidden_points, noisy_clicks, rendering
-from tests.accuracy.photograph import photograph
 from tests.accuracy.scene import PAIRED_SERIES, Case, FocalLength, Label
 from tests.accuracy.staging import Staged, root_joint
 from tests.accuracy.truth import true_body, true_joints, true_light
@@ -30,6 +29,14 @@ LABEL_COLOURS = (
     (220, 60, 60),
 )
 """Of background, skin, hair, upper and lower garment, shoes."""
+
+FOCAL_LENGTH_IN_35MM_FILM = 0xA405
+EXIF_DIRECTORY = 0x8769
+ARTIST, COPYRIGHT = 0x013B, 0x8298
+
+SHOT_NOISE = 0.00012
+READ_NOISE = 0.0015
+"""Variance of linear light per unit of light, and deviation in the dark: a few grey levels."""
 
 Labels = UInt8[np.ndarray, "h w"]
 
@@ -191,3 +198,27 @@ def encoded_mask(mask: Mask) -> bytes:
 def _load_mask(path: Path) -> Mask:
     with PillowImage.open(path) as picture:
         return np.asarray(picture.convert("L")) > 127
+
+
+def photograph(
+    linear: Float[np.ndarray, "h w 3"],
+    *,
+    quality: int,
+    equivalent_mm: int | None,
+    rng: np.random.Generator,
+) -> bytes:
+    """The file a camera would write of linear light: sensor noise, encoded for display, JPEG."""
+    deviation = np.sqrt(SHOT_NOISE * np.maximum(linear, 0.0) + READ_NOISE**2)
+    noisy = np.clip(linear + deviation * rng.normal(size=linear.shape), 0.0, 1.0)
+    display = np.where(
+        noisy <= 0.0031308, 12.92 * noisy, 1.055 * np.power(noisy, 1.0 / 2.4) - 0.055
+    )
+    picture = PillowImage.fromarray(np.rint(255.0 * display).astype(np.uint8))
+    exif = PillowImage.Exif()
+    exif[ARTIST] = "Maquette"
+    exif[COPYRIGHT] = "CC0 1.0"
+    if equivalent_mm is not None:
+        exif.get_ifd(EXIF_DIRECTORY)[FOCAL_LENGTH_IN_35MM_FILM] = equivalent_mm
+    stream = io.BytesIO()
+    picture.save(stream, "JPEG", quality=quality, exif=exif, optimize=True)
+    return stream.getvalue()

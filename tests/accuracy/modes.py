@@ -1,48 +1,21 @@
-"""What the evaluation can do beside scoring fits, each by the option of its name."""
+"""The tables beside that of the suite's fits, each by the option of its name."""
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import groupby
 
-from tests.accuracy.capture_table import capture_lines, judged_by, judgements
 from tests.accuracy.cases import PEOPLE
-from tests.accuracy.clothes_check import clothed_pictures, clothes_lines, clothes_said
-from tests.accuracy.clothing_table import (
-    case_heading,
-    clothing_lines,
-    underwear_lines,
-)
-from tests.accuracy.clothing_table import (
-    case_lines as dressed_lines,
-)
-from tests.accuracy.covers import asked_covers, covered_fit
-from tests.accuracy.covers_table import covers_heading, covers_line
+from tests.accuracy.clothing_table import case_heading, clothing_lines, underwear_lines
+from tests.accuracy.clothing_table import case_lines as dressed_lines
 from tests.accuracy.dressed import MISSING, dressed_names
 from tests.accuracy.dressed_scores import DressedScore, score_dressed, score_undressed
-from tests.accuracy.foreign import MISSING as FOREIGN_MISSING
-from tests.accuracy.foreign import foreign_half
 from tests.accuracy.nulls import null_rows, null_table
-from tests.accuracy.painted_clothes import painted_names
 from tests.accuracy.paper_method import method_errors, method_lines
 from tests.accuracy.runs import of_each
-from tests.accuracy.scan_tables import scan_lines, worst_scan_lines
-from tests.accuracy.scans import (
-    Pair,
-    Scanned,
-    clothed_pairs,
-    foreign_pairs,
-    own_pairs,
-    scanned,
-)
-from tests.accuracy.scene import Case, Half, Series
-from tests.accuracy.spoilt import KINDS, asked_spoilt, measured
-from tests.accuracy.spoilt_table import spoilt_heading, spoilt_lines
-from tests.accuracy.stance_kinds import Kind
-
-EVERY = 2
-"""Of people in this order as many are left out."""
+from tests.accuracy.scans import pairs_of, scan_lines, scanned
+from tests.accuracy.scene import Case, Half, Kind, Series
+from tests.accuracy.spoilt import KINDS, asked_spoilt, measured, spoilt_heading, spoilt_lines
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -86,63 +59,38 @@ def paper(choice: Choice) -> None:
             _print(method_lines([each for several in found for each in several]), title)
 
 
-def checks(choice: Choice) -> None:
-    """What the checks of a capture find, and what is not wrong."""
-    for half in choice.halves:
-        tasks = judgements(_names(choice, half), half)
-        judged = of_each(judged_by, tasks, choice.jobs)
-        lines = capture_lines([each for several in judged for each in several])
-        _print(lines, f"{half.value} half")
-    asked = [each for half in choice.halves for each in clothed_pictures(half)]
-    _print(clothes_lines(list(of_each(clothes_said, list(dict.fromkeys(asked)), choice.jobs))), "")
-
-
 def spoilt(choice: Choice) -> None:
     """People who stand, in pictures spoilt in one way each; each kind as soon as it is fitted."""
     for half, cases in choice.cases_by_half.items():
-        names = [each.name for each in cases if each.name.endswith(f"_{Kind.STANDING.value}")]
+        names = [each.name for each in cases if each.name.endswith(f"_{Kind.STANDING}")]
         if names:
-            _print([*null_table(names), "", spoilt_heading()], f"{half.value} half")
+            _print([*null_table(names), "", spoilt_heading()], f"{half} half")
         for kind in choice.options.kind or KINDS:
-            found = list(of_each(measured, asked_spoilt(names, [kind]), choice.jobs))
-            _print(spoilt_lines(found))
-
-
-def covers(choice: Choice) -> None:
-    """Every second person in underwear and in clothes, with what hides skin or looks like it."""
-    for half, cases in choice.cases_by_half.items():
-        standing = [each.name for each in cases if each.name.endswith(f"_{Kind.STANDING.value}")]
-        clothed = [each.name for each in cases if each.series is Series.CLOTHED]
-        found = of_each(covered_fit, asked_covers(standing[::EVERY], clothed[::EVERY]), choice.jobs)
-        _print([covers_heading()], f"{half.value} half")
-        for _, these in groupby(found, key=lambda each: (each.dressed, each.asked.kind)):
-            _print([covers_line(list(these))])
+            found = of_each(measured, asked_spoilt(names, [kind]), choice.jobs)
+            _print(spoilt_lines(list(found)))
 
 
 def scan(choice: Choice) -> None:
     """People from the front, from the side and from both; of one set if one is asked for."""
+    proposed = choice.options.proposed
     for half in choice.halves:
-        for series, pairs in (
-            (Series.PHONE, own_pairs(half)),
-            (Series.CLOTHED_PAIRS, clothed_pairs(half)),
-            (Series.FOREIGN, foreign_pairs(half)),
-        ):
-            if pairs and choice.options.set in (None, series.value):
-                proposed = choice.options.proposed
-                found = _scans(pairs, choice.jobs, proposed=proposed)
-                nulls = null_table([pair.front for pair in pairs])
-                lines = [*scan_lines(found), *nulls, "", *worst_scan_lines(found)]
+        for series in (Series.PHONE, Series.CLOTHED_PAIRS, Series.FOREIGN):
+            pairs = pairs_of(series, half)
+            if pairs and choice.options.set in (None, series):
+                found = of_each(partial(scanned, proposed=proposed), pairs, choice.jobs)
+                lines = scan_lines([each for several in found for each in several])
                 by = "proposals" if proposed else "clicks"
-                _print(lines, f"{series.value} set, {half.value} half: {len(pairs)} people, {by}")
+                title = f"{series} set, {half} half: {len(pairs)} people, {by}"
+                _print([*lines, *null_table([pair.front for pair in pairs])], title)
 
 
 def dressed(choice: Choice) -> None:
     """People in clothes: nothing said, clothes said to be tight and loose, the weight given."""
     for half, cases in choice.cases_by_half.items():
         names = [case.name for case in cases]
-        scores = _dressed(names, choice.jobs, f"{half.value} half")
+        scores = _dressed(names, choice.jobs, f"{half} half")
         _print(null_rows(names))
-        undressed = [f"{case.person}_{Kind.STANDING.value}" for case in cases]
+        undressed = [f"{case.person}_{Kind.STANDING}" for case in cases]
         _print(underwear_lines(scores, score_undressed(undressed, jobs=choice.jobs)))
 
 
@@ -154,15 +102,6 @@ def dressed_strangers(choice: Choice) -> None:
         return
     _dressed(names, choice.jobs, "dressed set")
     _print(null_rows(names))
-
-
-def painted_strangers(choice: Choice) -> None:
-    """Clothes as close as paint."""
-    names = painted_names()
-    if not names:
-        print(FOREIGN_MISSING, flush=True)
-        return
-    _dressed(names, choice.jobs, "painted set")
 
 
 def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
@@ -180,9 +119,7 @@ Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
     "paper": paper,
-    "checks": checks,
     "spoilt": spoilt,
-    "covers": covers,
     "scan": scan,
 }
 
@@ -194,21 +131,8 @@ def mode_of(options: argparse.Namespace) -> Mode | None:
         return asked[0]
     if options.set == Series.DRESSED.value:
         return dressed_strangers
-    if options.set == Series.PAINTED.value:
-        return painted_strangers
     each = options.set == Series.CLOTHED.value and options.clothing is None
     return dressed if each else None
-
-
-def _names(choice: Choice, half: Half) -> list[str]:
-    """The chosen pictures of a half, foreign ones too."""
-    own = [case.name for case in choice.cases_by_half.get(half, ())]
-    return own + [each for each in choice.foreign if foreign_half(each) is half]
-
-
-def _scans(pairs: Sequence[Pair], jobs: int, *, proposed: bool = False) -> list[Scanned]:
-    found = of_each(partial(scanned, proposed=proposed), pairs, jobs)
-    return [each for several in found for each in several]
 
 
 def _print(lines: Sequence[str], title: str | None = None) -> None:

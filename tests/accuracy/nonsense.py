@@ -7,29 +7,30 @@ would put them: about the middle of the picture, over what is drawn, or where th
 import io
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import chain
+from typing import Any
 
 import cv2
 import numpy as np
+from jaxtyping import Float, UInt8
 from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
 from fitter.request import Click, FitRequest
 from fitter.vocabulary.choices import Cues
 from tests.accuracy.cases import CASES
-from tests.accuracy.drawn_pictures import (
-    Box,
-    Picture,
-    Rng,
-    coded,
-    disc,
-    dog_picture,
-    hills,
-    one_shape,
-    smooth_noise,
-)
 from tests.accuracy.files import CaseFiles, encoded_mask, read_case
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed
+
+Picture = UInt8[np.ndarray, "h w 3"]
+Rng = np.random.Generator
+
+Box = tuple[float, float, float, float]
+"""Left, top, right and bottom."""
+
+SIZE = (640, 480)
+"""Height and width of what is drawn."""
 
 DONORS = ("man_old_heavy_standing", "woman_young_thin_standing", "man_young_thin_standing")
 """Whose points and pictures are used."""
@@ -45,25 +46,21 @@ def nonsense(cues: Cues) -> dict[str, FitRequest]:
 
 
 def _landscape(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
-    return _drawn(hills(rng), request, _FULL)
+    return _drawn(hills(rng), _FULL, request)
 
 
 def _noise(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     colours = np.stack([smooth_noise(rng, 2.0 + 3.0 * rng.random()) for _ in range(3)], axis=-1)
-    return _drawn(coded(128.0 + 45.0 * colours), request, _FULL)
+    return _drawn(coded(128.0 + 45.0 * colours), _FULL, request)
 
 
 def _circle(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
-    picture, box, _shape = one_shape(rng, disc)
-    return _drawn(picture, request, box)
+    return _drawn(*disc(rng), request)
 
 
 def _dog(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     """A person's points, stretched over the dog."""
-    picture, points, _shape = dog_picture(rng)
-    places = np.array(list(points.values()))
-    box = (*places.min(axis=0), *places.max(axis=0))
-    return _drawn(picture, request, box)
+    return _drawn(*dog(rng), request)
 
 
 def _two_in_one_mask(
@@ -126,11 +123,10 @@ def placed(clicks: Mapping[str, Click], box: Box) -> dict[str, Click]:
     }
 
 
-def _drawn(picture: Picture, request: FitRequest, box: Box | None) -> FitRequest:
-    """The request with another picture: points over a box, pixels or shares; None leaves them."""
-    clicks = request.views[0].clicks
-    if box is not None:
-        clicks = placed(clicks, box if box[2] > 1.0 else _scaled(box, picture))
+def _drawn(picture: Picture, box: Box, request: FitRequest) -> FitRequest:
+    """The request with another picture: points over a box, pixels or shares."""
+    box = box if box[2] > 1.0 else _scaled(box, picture)
+    clicks = placed(request.views[0].clicks, box)
     height, width = picture.shape[:2]
     clicks = {
         name: replace(click, x=min(click.x, float(width)), y=min(click.y, float(height)))
@@ -154,3 +150,98 @@ def _encoded(picture: Picture) -> bytes:
     stream = io.BytesIO()
     PillowImage.fromarray(np.ascontiguousarray(picture)).save(stream, "JPEG", quality=90)
     return stream.getvalue()
+
+
+def hills(rng: Rng) -> Picture:
+    """Four ridges under a sky."""
+    height, width = SIZE
+    rows = np.linspace(0.0, 1.0, height)[:, None]
+    sky = np.array([110.0, 160.0, 225.0]) + rows[..., None] * rng.uniform(10.0, 90.0, 3)
+    picture = np.broadcast_to(sky, (height, width, 3)).copy()
+    for index, level in enumerate(np.sort(rng.uniform(0.35, 0.85, 4))):
+        along = np.cumsum(rng.normal(0.0, 1.0, width))
+        along = cv2.GaussianBlur(along[None], (0, 0), 18.0)[0]
+        ridge = level + 0.12 * (along - along.mean()) / (along.std() + 1e-9) * (1.0 - level)
+        ground = rows >= ridge[None]
+        tone = np.array([40.0, 80.0, 35.0]) * (1.4 - 0.25 * index) + rng.uniform(0.0, 50.0, 3)
+        texture = (
+            14.0 * smooth_noise(rng, 2.5)[..., None] + 10.0 * smooth_noise(rng, 15.0)[..., None]
+        )
+        picture = np.where(ground[..., None], tone + texture, picture)
+    return coded(picture + rng.normal(0.0, 2.0, picture.shape))
+
+
+def disc(rng: Rng) -> tuple[Picture, Box]:
+    """A disc before a wall: picture, and box for the points within it."""
+    height, width = SIZE
+    centre = np.array([width, height]) * rng.uniform(0.45, 0.55, 2)
+    half = np.array([rng.uniform(0.16, 0.4), 0.4]) * [width, height]
+    left, top, right, bottom = (*(centre - half), *(centre + half))
+    radius = round(min(0.5 * (bottom - top), 0.45 * width))
+    middle = round(0.5 * (left + right)), round(0.5 * (top + bottom))
+    shape = cv2.circle(np.zeros(SIZE, np.uint8), middle, radius, 1, -1) > 0
+    colours = rng.uniform(30.0, 225.0, (2, 3))
+    picture = np.where(shape[..., None], colours[0], colours[1])
+    picture = cv2.GaussianBlur(picture, (0, 0), 0.8) + rng.normal(0.0, 2.0, picture.shape)
+    rows, columns = np.nonzero(shape)
+    tight = (columns.min(), rows.min(), columns.max(), rows.max())
+    left, top, right, bottom = (float(each) for each in tight)
+    inset = 0.08 * (bottom - top)
+    return coded(picture), (left + inset, top + inset, right - inset, bottom - inset)
+
+
+def dog(rng: Rng) -> tuple[Picture, Box]:
+    """A dog seen from the side: picture, and the box of its joints."""
+    height, width = SIZE
+    scale = width * rng.uniform(0.28, 0.36)
+    middle = np.array([0.5 * width, 0.52 * height]) + rng.uniform(-15.0, 15.0, 2)
+    swing = rng.uniform(-0.08, 0.08, 4)
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return float(middle[0] + scale * x), float(middle[1] + scale * y)
+
+    legs = (
+        (at(0.72, 0.15), at(0.72 + swing[0], 0.62), at(0.74 + swing[0], 1.05)),
+        (at(0.55, 0.15), at(0.52 + swing[1], 0.62), at(0.5 + swing[1], 1.05)),
+        (at(-0.6, 0.12), at(-0.55 + swing[2], 0.62), at(-0.68 + swing[2], 1.05)),
+        (at(-0.75, 0.12), at(-0.8 + swing[3], 0.62), at(-0.9 + swing[3], 1.05)),
+    )
+    shape = np.zeros(SIZE, np.uint8)
+    _ellipse(shape, at(0.0, 0.0), (0.85 * scale, 0.3 * scale), 0.0)
+    _ellipse(shape, at(0.95, -0.4), (0.3 * scale, 0.22 * scale), 20.0)
+    _ellipse(shape, at(1.15, -0.32), (0.22 * scale, 0.11 * scale), 10.0)
+    _ellipse(shape, at(0.8, -0.45), (0.09 * scale, 0.22 * scale), 15.0)
+    _stroke(shape, (at(0.65, -0.05), at(0.9, -0.4)), 0.3 * scale)
+    _stroke(shape, (at(-0.8, -0.1), at(-1.05, -0.35), at(-1.15, -0.65)), 0.09 * scale)
+    for leg in legs:
+        _stroke(shape, leg, 0.15 * scale)
+    joints = [at(1.3, -0.32), at(1.0, -0.48), at(0.85, -0.62), *chain.from_iterable(legs)]
+    fur = rng.uniform(30.0, 160.0, 3) + 14.0 * smooth_noise(rng, 2.0)[..., None]
+    lawn = np.array([90.0, 150.0, 70.0]) + rng.uniform(-20.0, 60.0, 3)
+    ground = lawn + 12.0 * smooth_noise(rng, 5.0)[..., None]
+    picture = cv2.GaussianBlur(np.where(shape[..., None] > 0, fur, ground), (0, 0), 0.7)
+    inside = np.clip(joints, 1.0, np.array([width, height]) - 1.0)
+    return coded(picture), (*inside.min(axis=0), *inside.max(axis=0))
+
+
+def _ellipse(
+    canvas: np.ndarray, centre: tuple[float, float], axes: tuple[float, float], degrees: float
+) -> None:
+    middle = round(centre[0]), round(centre[1])
+    cv2.ellipse(canvas, middle, (round(axes[0]), round(axes[1])), degrees, 0, 360, 1, -1)
+
+
+def _stroke(canvas: np.ndarray, places: tuple[tuple[float, float], ...], width: float) -> None:
+    line = np.array([(round(x), round(y)) for x, y in places], np.int32)
+    cv2.polylines(canvas, [line], False, 1, max(round(width), 1))
+
+
+def smooth_noise(rng: Rng, spread: float) -> Float[np.ndarray, "h w"]:
+    """Noise of unit variance, correlated over ``spread`` pixels."""
+    blurred = cv2.GaussianBlur(rng.normal(0.0, 1.0, SIZE), (0, 0), spread)
+    return blurred / blurred.std()
+
+
+def coded(values: Any) -> Picture:
+    """As 8-bit values."""
+    return np.clip(np.rint(values), 0, 255).astype(np.uint8)

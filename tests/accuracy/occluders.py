@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask
-from tests.accuracy.joint_figures import part_of_joint
+from tests.accuracy.joints import part_of_joint
 from tests.accuracy.true_picture import TruePicture
 
 Picture = UInt8[np.ndarray, "h w 3"]

@@ -11,11 +11,9 @@ from fitter.vocabulary.choices import Cues
 from tests.accuracy.cases import CASES
 from tests.accuracy.dressed import dressed_names, dressed_picture
 from tests.accuracy.foreign import foreign_picture
-from tests.accuracy.painted_clothes import PREFIX, painted_picture
 from tests.accuracy.scoring import Scored, fit_picture, score
 from tests.accuracy.sheets import write_pictures
-from tests.accuracy.suite import case_picture
-from tests.accuracy.true_picture import Told, TruePicture
+from tests.accuracy.true_picture import Told, TruePicture, case_picture
 
 Found = TypeVar("Found")
 Item = TypeVar("Item")
@@ -33,8 +31,6 @@ def picture_of(name: str) -> TruePicture:
     """A picture of the suite's own, or one of bodies by another maker."""
     if name in CASES:
         return case_picture(CASES[name])
-    if name.startswith(PREFIX):
-        return painted_picture(name)
     return dressed_picture(name) if name in dressed_names() else foreign_picture(name)
 
 

@@ -30,11 +30,18 @@ class Series(StrEnum):
     CLOTHED_PAIRS = "clothed-pairs"
     FOREIGN = "foreign"
     DRESSED = "dressed"
-    PAINTED = "painted"
 
 
 PAIRED_SERIES = frozenset({Series.PHONE, Series.CLOTHED_PAIRS})
 """A person from the front and from the side; fitted where they are asked for."""
+
+
+class Kind(StrEnum):
+    """The stance that ends an ordinary picture's name; ``OCCLUDED`` as in the paper's Fig. 4."""
+
+    STANDING = "standing"
+    OCCLUDED = "occluded"
+    TURNED = "turned"
 
 
 class FocalLength(StrEnum):

@@ -15,9 +15,8 @@ from fitter.render.rasterizer import render
 from fitter.render.reflectance import direction_to_light
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues
-from tests.accuracy.joint_figures import joint_error_mm
+from tests.accuracy.joints import joint_error_mm, wrong_limbs
 from tests.accuracy.landmark_points import packaged_model
-from tests.accuracy.limbs_in_depth import wrong_limbs
 from tests.accuracy.scene import Half, Series
 from tests.accuracy.true_picture import Told, TruePicture, told_request
 from tests.accuracy.truth import TrueBody
@@ -103,7 +102,6 @@ def score(fitted: Fitted) -> Scored:
     """Compare a fit with the truth."""
     result, picture, truth = fitted.result, fitted.picture, fitted.picture.truth
     model = packaged_model(result.person.gender)
-    found = {each.name: each for each in result.measurements}
     joints = regress(model.joint_regressor, result.found.posed_vertices)
     shown = render(result.found.posed_vertices, model.triangles, result.person.camera).silhouette
     cut = resampled(
@@ -117,12 +115,8 @@ def score(fitted: Fitted) -> Scored:
         cues=fitted.cues,
         outcome=result.found.outcome.value,
         bmi=truth.bmi,
-        errors={name: found[name].value - value for name, value in truth.measurements.items()},
-        standard_errors={
-            name: each.standard_error
-            for name, each in found.items()
-            if each.standard_error is not None and name not in result.given
-        },
+        errors=errors_of(result, truth),
+        standard_errors=standard_errors_of(result),
         vertex_mm=_vertex_error_mm(result.canonical_vertices, truth),
         joint_mm=joint_error_mm(joints, picture.joints),
         overlap=overlap(shown, picture.body_mask),
@@ -131,6 +125,21 @@ def score(fitted: Fitted) -> Scored:
         wrong_limbs=wrong_limbs(joints, picture.joints),
         seconds=fitted.seconds,
     )
+
+
+def errors_of(result: FitResult, truth: TrueBody) -> dict[str, float]:
+    """Measured minus true, by measurement, centimetres and kilograms."""
+    found = {each.name: each.value for each in result.measurements}
+    return {name: found[name] - value for name, value in truth.measurements.items()}
+
+
+def standard_errors_of(result: FitResult) -> dict[str, float]:
+    """What a fit states of these errors; what was given and what has none are left out."""
+    return {
+        each.name: each.standard_error
+        for each in result.measurements
+        if each.standard_error is not None and each.name not in result.given
+    }
 
 
 def _vertex_error_mm(found: Float[np.ndarray, "m 3"], truth: TrueBody) -> float | None:

@@ -22,32 +22,14 @@ FRONT, SIDE = 0.0, 80.0
 
 Picture = Integer[np.ndarray, "h w 3"]
 
-PANELS = (
-    "picture",
-    "initial",
-    "SE",
-    "SES",
-    "truth, front and side",
-    "SE, front and side",
-    "SES, front and side",
-    "errors of SE",
-    "errors of SES",
-)
-"""Of each case in this order, as files ``<case>_<number>.jpg``; a body of another mesh than the
-model's has no errors of vertices."""
-
 
 def write_pictures(folder: Path, fits: Sequence[Fitted]) -> None:
-    """The panels of a case from its SE and SES fits, in this order."""
+    """One picture of a case's SE and SES fits, in this order: as sent, first body, both fits, the
+    true body and those found from front and side, errors of vertices."""
     folder.mkdir(parents=True, exist_ok=True)
-    for number, panel in enumerate(_panels(*fits)):
-        path = folder / panel_name(fits[0].picture.name, number)
-        cv2.imwrite(str(path), panel[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 88])
-
-
-def panel_name(case: str, number: int) -> str:
-    """The file of a panel."""
-    return f"{case}_{number}.jpg"
+    path = folder / f"{fits[0].picture.name}.jpg"
+    panels = np.hstack(list(_panels(*fits)))[..., ::-1]
+    cv2.imwrite(str(path), panels, [cv2.IMWRITE_JPEG_QUALITY, 88])
 
 
 def _panels(se: Fitted, ses: Fitted) -> Iterator[Picture]:

@@ -1,10 +1,11 @@
-"""People in spoilt pictures: what is in the way, cropped, told wrongly, badly saved, dark, seated.
+"""People in spoilt pictures: things in the way, cropped, told wrongly, blurred, dark, seated.
 
 One picture of each person who stands, spoilt in one way each. The camera's focal length is told, so
 that it is not a fault of its own. What hides a point makes a click there a guess.
 """
 
 import io
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -12,15 +13,12 @@ import numpy as np
 from PIL import Image as PillowImage
 
 from fitter.errors import FitterError
-from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.pipeline import fit
 from fitter.observation.decoding import decode_picture
 from fitter.request import Click, FitRequest, KnownMeasurement
 from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.remarks import Severity
-from tests.accuracy.capture_forms import Source, Spoil, cropped, exposed
-from tests.accuracy.capture_table import POSTURES
 from tests.accuracy.cases import CASES
 from tests.accuracy.clicks import noisy_clicks, rendering
 from tests.accuracy.occluders import (
@@ -37,10 +35,12 @@ from tests.accuracy.people import load_person
 from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.plain_rendering import plain_picture
 from tests.accuracy.runs import picture_of
+from tests.accuracy.scene import Leg
+from tests.accuracy.scoring import errors_of, standard_errors_of
+from tests.accuracy.spoiling import Picture, blurred, cropped, exposed
 from tests.accuracy.staging import camera_of, stage
-from tests.accuracy.suite import VISIBLE
-from tests.accuracy.table import MEASUREMENTS
-from tests.accuracy.true_picture import TruePicture
+from tests.accuracy.table import MEASUREMENTS, error_heading, error_line
+from tests.accuracy.true_picture import VISIBLE, TruePicture
 from tests.one_picture import changed
 
 MAX_PIXELS = 50_000_000
@@ -59,13 +59,18 @@ OCCLUDED: Mapping[str, Occlude] = {
 
 BESIDE_ANOTHER = ("neighbour behind", "neighbour in front")
 
-CROPPED: Mapping[str, Spoil] = {
-    "without the feet": lambda it: cropped(it, bottom=0.93),
-    "without the shins": lambda it: cropped(it, bottom=0.72),
-    "without the legs": lambda it: cropped(it, bottom=0.52),
+CROPPED: Mapping[str, float] = {
+    "without the feet": 0.93,
+    "without the shins": 0.72,
+    "without the legs": 0.52,
 }
+"""The share of the person's height that is left."""
 
-DARK: Mapping[str, Spoil] = {"a twentieth of the light": lambda it: exposed(it, factor=0.05)}
+TAKEN: Mapping[str, Callable[[Picture], Picture]] = {
+    "a twentieth of the light": lambda it: exposed(it, factor=0.05),
+    "five times the light": lambda it: exposed(it, factor=5.0),
+    "blurred by 4 px": lambda it: blurred(it, deviation_px=4.0),
+}
 
 TOLD: Mapping[str, Callable[[FitRequest], FitRequest]] = {
     "lens 25 % too short": lambda request: _with_lens(request, 0.75),
@@ -78,7 +83,11 @@ TOLD: Mapping[str, Callable[[FitRequest], FitRequest]] = {
 
 JPEG, SEATED = f"JPEG {POOR_QUALITY}", "seated"
 
-KINDS = (AS_THEY_ARE, *OCCLUDED, *CROPPED, *TOLD, JPEG, *DARK, SEATED)
+KINDS = (AS_THEY_ARE, *OCCLUDED, *CROPPED, *TOLD, JPEG, *TAKEN, SEATED)
+
+SEATED_LEG = Leg(raised=85.0, forward=80.0, bend=85.0, toe_out=0.0)
+
+COMPARED = [each for each in MEASUREMENTS if each[0] != "navel"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,16 +105,8 @@ class Asked:
 class Measured:
     """What came of a spoilt picture; ``errors`` are empty where it was refused.
 
-    Attributes
-    ----------
-    errors
-        Measured minus true, by measurement, centimetres and kilograms.
-    standard_errors
-        What the fit states.
-    findings
-        Codes of what harms or blocks.
-    withheld
-        Whether the verdict withholds the measurements; here they are shown all the same.
+    ``findings`` are codes of what harms or blocks; ``withheld`` says whether the verdict withholds
+    the measurements, which are shown here all the same.
     """
 
     asked: Asked
@@ -148,17 +149,11 @@ def measured(asked: Asked) -> Measured:
             findings=(str(getattr(error, "code", "refused")),),
             withheld=True,
         )
-    found = {each.name: each for each in result.measurements}
-    truth = picture.truth.measurements
     return Measured(
         asked=asked,
         person=picture.person,
-        errors={key: found[key].value - truth[key] for _, key, _ in MEASUREMENTS},
-        standard_errors={
-            key: error
-            for _, key, _ in MEASUREMENTS
-            if (error := found[key].standard_error) is not None
-        },
+        errors=errors_of(result, picture.truth),
+        standard_errors=standard_errors_of(result),
         findings=tuple(
             each.code
             for each in result.found.findings
@@ -184,10 +179,10 @@ def spoilt_request(picture: TruePicture, asked: Asked) -> FitRequest:
         return changed(request, image=_coded(pixels, POOR_QUALITY))
     if asked.kind in OCCLUDED:
         return _occluded(request, picture, asked)
-    source = Source(picture=pixels, mask=picture.person_mask, question=CaptureQuestion())
-    made = {**CROPPED, **DARK}[asked.kind](source)
-    height = len(made)
-    kept = {name: each for name, each in request.views[0].clicks.items() if each.y < height}
+    if asked.kind in TAKEN:
+        return changed(request, image=_coded(TAKEN[asked.kind](pixels), QUALITY))
+    made = cropped(pixels, picture.person_mask, bottom=CROPPED[asked.kind])
+    kept = {name: each for name, each in request.views[0].clicks.items() if each.y < len(made)}
     return changed(request, image=_coded(made, QUALITY), clicks=kept)
 
 
@@ -217,7 +212,7 @@ def _occluded(request: FitRequest, picture: TruePicture, asked: Asked) -> FitReq
 def _seated(request: FitRequest, name: str) -> FitRequest:
     """Rendered plainly, with points as they would be clicked there."""
     case = CASES[name]
-    case = replace(case, stance=replace(case.stance, **POSTURES[SEATED]))
+    case = replace(case, stance=replace(case.stance, left_leg=SEATED_LEG, right_leg=SEATED_LEG))
     staged = stage(load_person(PEOPLE[case.person]), case)
     points = noisy_clicks(staged, rendering(staged), np.random.default_rng(case.seed))
     return changed(
@@ -260,3 +255,24 @@ def _with_height(request: FitRequest, metres: float) -> FitRequest:
     height = request.person.height_m
     assert height is not None
     return changed(request, height_m=round(height + metres, 3))
+
+
+def spoilt_heading() -> str:
+    """The heading above :func:`spoilt_lines`."""
+    return f"{error_heading('kind', COMPARED)}{'withheld':>9s}  findings"
+
+
+def spoilt_lines(found: Sequence[Measured]) -> list[str]:
+    """One line a kind, with clicks and with proposals; of what is withheld nothing counts."""
+    rows: dict[str, list[Measured]] = {}
+    for each in found:
+        points = "proposed" if each.asked.proposed else "clicked"
+        rows.setdefault(f"{each.asked.kind:26s}{points}", []).append(each)
+    lines: list[str] = []
+    for row, these in rows.items():
+        shown = [each for each in these if not each.withheld]
+        counts = Counter(code for each in these for code in each.findings)
+        said = ", ".join(f"{code} {count}" for code, count in counts.most_common())
+        line = error_line(row, shown, places=1, measurements=COMPARED)
+        lines.append(f"{line}{len(these) - len(shown):9d}  {said}".rstrip())
+    return lines

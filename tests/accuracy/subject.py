@@ -15,8 +15,8 @@ from tests.accuracy.cases import CASES
 from tests.accuracy.files import PICTURES_FOLDER, read_case
 from tests.accuracy.people import load_person
 from tests.accuracy.people_table import PEOPLE
+from tests.accuracy.scene import Kind
 from tests.accuracy.staging import stage
-from tests.accuracy.stance_kinds import Kind
 from tests.accuracy.truth import true_body
 
 PERSON = "man_122_middle_aged_middling"

@@ -1,14 +1,17 @@
-"""The suite's figures as text: signed errors of each fit, and their summary."""
+"""The figures of fits as text: one line a fit, sums, and one printer of errors for all tables."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
-from jaxtyping import Float
 
 from fitter.vocabulary.choices import Cues
 from tests.accuracy.scoring import Scored
 
-MEASUREMENTS = (
+Measurement = tuple[str, str, str]
+"""Title, name and unit."""
+
+MEASUREMENTS: Sequence[Measurement] = (
     ("chest", "chest_girth", "cm"),
     ("waist", "waist_girth_smallest", "cm"),
     ("hip", "hip_girth", "cm"),
@@ -20,7 +23,95 @@ MEASUREMENTS = (
 INTERVALS = ((68, 1.0), (95, 1.96))
 """Per cent of a normal distribution within so many standard errors."""
 
+BMI_CLASSES: Mapping[str, tuple[float, float]] = {
+    "< 18.5": (0.0, 18.5),
+    "18.5-25": (18.5, 25.0),
+    "25-30": (25.0, 30.0),
+    "30-35": (30.0, 35.0),
+    ">= 35": (35.0, np.inf),
+}
+"""Lower bounds count, upper ones do not, as the WHO draws them (kilograms per square metre)."""
+
+TITLE = 40
+
 Figure = Callable[[Scored], float | None]
+
+
+class Erring(Protocol):
+    """What a fit errs by: measured minus true, and the standard errors that it states."""
+
+    @property
+    def person(self) -> str: ...
+    @property
+    def errors(self) -> Mapping[str, float]: ...
+    @property
+    def standard_errors(self) -> Mapping[str, float]: ...
+
+
+def error_heading(title: str, measurements: Sequence[Measurement] = MEASUREMENTS) -> str:
+    """The heading above :func:`error_line`."""
+    columns = "".join(f"{f'{name} {unit}':>21s}{'width':>6s}" for name, _, unit in measurements)
+    return f"{title:{TITLE}s}{'n':>4s}{columns}{f'{INTERVALS[-1][0]} % hold':>11s}"
+
+
+def error_line(
+    title: str,
+    these: Sequence[Erring],
+    *,
+    places: int,
+    measurements: Sequence[Measurement] = MEASUREMENTS,
+) -> str:
+    """Mean absolute errors with their standard errors over people, in brackets their mean.
+
+    Beside each the median width of the 95 % interval, end to end; then the share of truths in these
+    intervals, of what was not given.
+    """
+    deviations = INTERVALS[-1][1]
+    line = f"{title:{TITLE}s}{len(these):4d}"
+    for _, key, _ in measurements:
+        line += f"{_cell(these, key, places):>21s}"
+        known = [each.standard_errors[key] for each in these if key in each.standard_errors]
+        line += f"{2.0 * deviations * np.median(known):6.1f}" if known else f"{'-':>6s}"
+    keys = [key for _, key, _ in measurements]
+    by_fit = [held(each, keys, deviations) for each in these]
+    yes = [each for several in by_fit for each in several]
+    shares = np.array([100.0 * np.mean(each) for each in by_fit if each])
+    people = [each.person for each, own in zip(these, by_fit, strict=True) if own]
+    share = f"{100.0 * np.mean(yes):.0f}{spread(people, shares, 0)} %" if yes else "-"
+    return f"{line}{share:>11s}"
+
+
+def _cell(these: Sequence[Erring], key: str, places: int) -> str:
+    if not these:
+        return "-"
+    errors = np.array([each.errors[key] for each in these])
+    uncertain = spread([each.person for each in these], np.abs(errors), places)
+    return f"{np.abs(errors).mean():.{places}f}{uncertain} ({errors.mean():+.{places}f})"
+
+
+def spread(people: Sequence[str], values: Sequence[float] | np.ndarray, places: int) -> str:
+    """The standard error of a mean over people, who are independent; nothing of one of them."""
+    of = np.array(people)
+    means = [np.asarray(values)[of == person].mean() for person in dict.fromkeys(people)]
+    if len(means) < 2:
+        return ""
+    return f" ±{np.std(means, ddof=1) / len(means) ** 0.5:.{places}f}"
+
+
+def bmi_class(bmi: float) -> str:
+    """The name of a body mass index's class."""
+    return next(name for name, (low, high) in BMI_CLASSES.items() if low <= bmi < high)
+
+
+def bmi_lines(scored: Sequence[Scored]) -> list[str]:
+    """Errors by class of body mass index."""
+    lines = [error_heading("BMI")]
+    for name in BMI_CLASSES:
+        for cues in Cues:
+            these = [each for each in scored if each.cues is cues and bmi_class(each.bmi) == name]
+            if these:
+                lines.append(error_line(f"{name:10s}{cues.value}", these, places=2))
+    return lines
 
 
 def case_lines(scored: Sequence[Scored]) -> list[str]:
@@ -81,15 +172,9 @@ def cue_lines(scored: Sequence[Scored]) -> list[str]:
         se, ses = np.abs([[each.errors[key] for each in pair] for pair in pairs]).T
         change = float(np.mean(ses - se))
         worse = "  worse" if change > 0.0 else ""
-        share, uncertain = _share(list(ses < se)), _standard_error(people, ses - se)
+        share, uncertain = _share(list(ses < se)), spread(people, ses - se, 2).strip()
         lines.append(f"{f'  {name} [{unit}]':18s}{share:>11s}{change:+10.2f}{uncertain:>8s}{worse}")
     return lines
-
-
-def _standard_error(people: Sequence[str], changes: Float[np.ndarray, " k"]) -> str:
-    """Of the mean over people, each with the mean over their pictures."""
-    means = [changes[np.array(people) == person].mean() for person in dict.fromkeys(people)]
-    return f"±{np.std(means, ddof=1) / len(means) ** 0.5:.2f}" if len(means) > 1 else ""
 
 
 def worst_lines(scored: Sequence[Scored], count: int = 5) -> list[str]:
@@ -103,7 +188,7 @@ def worst_lines(scored: Sequence[Scored], count: int = 5) -> list[str]:
     return ["worst", *(_case_line(each) for each in shaded[::-1][:count])] if shaded else []
 
 
-def held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
+def held(scored: Erring, keys: Sequence[str], deviations: float) -> list[bool]:
     """Whether intervals of so many standard errors hold the true measurements."""
     return [
         abs(scored.errors[key]) <= deviations * scored.standard_errors[key]

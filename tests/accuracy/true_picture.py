@@ -7,12 +7,17 @@ from jaxtyping import Float
 
 from fitter.arrays import Mask
 from fitter.parameters import Light
-from fitter.request import FitRequest, KnownMeasurement
-from fitter.vocabulary.choices import Clothing
-from tests.accuracy.files import Labels, encoded_mask
-from tests.accuracy.scene import Half, Series
-from tests.accuracy.truth import TrueBody
-from tests.one_picture import changed
+from fitter.request import Click, FitRequest, KnownMeasurement
+from fitter.vocabulary.choices import Clothing, Cues, Gender
+from tests.accuracy.files import CaseFiles, Labels, encoded_mask, light_from_document, read_case
+from tests.accuracy.people import load_person
+from tests.accuracy.people_table import PEOPLE
+from tests.accuracy.scene import Case, Half, Series
+from tests.accuracy.truth import TrueBody, true_body
+from tests.one_picture import changed, one_picture
+
+VISIBLE = 2
+"""The visibility of a point that is seen, as requests write it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,3 +92,40 @@ def told_request(picture: TruePicture, told: Told) -> FitRequest:
         known = {name: KnownMeasurement(value=true[name]) for name in told.measurements}
         request = changed(request, measurements=known)
     return request
+
+
+def case_picture(case: Case) -> TruePicture:
+    """A case's picture and truth."""
+    files, source = read_case(case), PEOPLE[case.person]
+    return TruePicture(
+        name=case.name,
+        person=case.person,
+        series=case.series,
+        half=source.half,
+        request=fit_request(files, Cues.SES),
+        body_mask=files.body_mask,
+        person_mask=files.person_mask,
+        focal_length_px=files.scene["focal_length_px"],
+        light=light_from_document(files.scene["light"]),
+        joints=np.array(files.scene["joints_m"]),
+        truth=true_body(load_person(source)),
+        outfit="" if case.outfit is None else case.outfit.name,
+        labels=files.labels,
+    )
+
+
+def fit_request(files: CaseFiles, cues: Cues) -> FitRequest:
+    """The request a case's file holds."""
+    options = files.request
+    return one_picture(
+        image=files.image,
+        clicks={
+            name: Click(x=point["x"], y=point["y"], occluded=point["visibility"] < VISIBLE)
+            for name, point in options["points"].items()
+        },
+        gender=Gender(options["gender"]),
+        height_m=options["height_m"],
+        focal_length_px=options.get("focal_length_px"),
+        cues=cues,
+        force=True,
+    )

@@ -9,7 +9,7 @@ from fitter.request import Click, FitRequest
 from fitter.vocabulary.choices import Cues
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import read_case
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed
 
 _WARMING = 2

@@ -7,9 +7,9 @@ from fitter.fits.pipeline import fit
 from fitter.request import FitRequest
 from fitter.training.report.survey_comparison import note_lines
 from fitter.vocabulary.choices import Cues, ViewKind
+from tests.accuracy.cases import PHONE_PAIRS, PicturePair
 from tests.accuracy.files import read_case
-from tests.accuracy.phone_cases import PHONE_PAIRS, PhonePair
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.benchmarks.requests import warm_up
 from tests.benchmarks.spent import processor_s
 from tests.one_picture import changed, together
@@ -30,14 +30,14 @@ def measured(count: int) -> list[float]:
     return [_share(pair) for pair in list(PHONE_PAIRS.values())[:count]]
 
 
-def _share(pair: PhonePair) -> float:
+def _share(pair: PicturePair) -> float:
     requests = _requests(pair)
     both = processor_s(lambda: fit(together(*requests)))
     single = [processor_s(lambda each=each: fit(each)) for each in requests]
     return both * len(single) / sum(single)
 
 
-def _requests(pair: PhonePair) -> list[FitRequest]:
+def _requests(pair: PicturePair) -> list[FitRequest]:
     """Front and side, by silhouette, edges and shading."""
     return [
         changed(fit_request(read_case(case), Cues.SES), kind=kind)

@@ -2,11 +2,18 @@
 
 import re
 import shlex
+from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from tests.accuracy.command_line import parser
+from tests.accuracy.__main__ import parser
+from tests.accuracy.clothing_table import KNOWN
+from tests.accuracy.nulls import NULLS, null_errors
+from tests.accuracy.people_table import PEOPLE
+from tests.accuracy.runs import picture_of
+from tests.accuracy.scene import Half, Kind
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "accuracy.md").read_text()
@@ -33,7 +40,7 @@ def test_commands_are_found():
 
 @pytest.mark.parametrize("options", OPTIONS)
 def test_every_command_is_understood(options: str):
-    parser("").parse_args(shlex.split(options))
+    parser().parse_args(shlex.split(options))
 
 
 @pytest.mark.parametrize(
@@ -95,3 +102,42 @@ def test_shares_in_sentences_are_those_of_the_tables():
     assert f"within {degrees} degrees. Shading improves" in tables
     joints = cells(TABLES, "SES: and shading")[5]
     assert f"The joints are {joints} mm off on the mean" in page
+
+
+@pytest.fixture(scope="module")
+def nulls() -> Mapping[str, Mapping[str, float]]:
+    """Mean absolute errors of the reporting half without a picture, by what is known."""
+    pictures = [
+        picture_of(f"{name}_{Kind.STANDING}")
+        for name, source in PEOPLE.items()
+        if source.half is Half.REPORTING
+    ]
+    found: dict[str, dict[str, float]] = {}
+    for title, known in NULLS.items():
+        errors = [null_errors(picture, known) for picture in pictures]
+        found[title] = {
+            key: float(np.mean([abs(each[key]) for each in errors])) for key in errors[0]
+        }
+    return found
+
+
+@pytest.mark.parametrize(
+    ("row", "title"),
+    [
+        ("no picture: the gender alone", "null: gender"),
+        ("no picture: the height", "null: height"),
+        ("no picture: height and weight", "null: height, weight"),
+    ],
+)
+def test_the_pages_say_what_is_known_without_a_picture(
+    row: str, title: str, nulls: Mapping[str, Mapping[str, float]]
+):
+    told = nulls[title]
+    keys = ("chest_girth", "waist_girth_smallest", "hip_girth", "weight")
+    figures = [f"{told[key]:.1f}" if told[key] > KNOWN else "-" for key in keys]
+    assert cells(PAGE, row)[:4] == figures
+    waist = f"{told['waist_girth_navel']:.1f}"
+    assert cells(TABLES, row)[:4] == [figures[0], waist, *figures[2:]]
+    part = TABLES[TABLES.index("*From the front and from the side*") :]
+    if row != "no picture: the gender alone":
+        assert cells(part, row)[:4] == figures

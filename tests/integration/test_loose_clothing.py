@@ -12,7 +12,7 @@ from fitter.result import FitResult
 from fitter.vocabulary.remarks import Code
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import CaseFiles, read_case
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed
 
 WAIST, SMALLEST = "waist_girth_navel", "waist_girth_smallest"

@@ -11,7 +11,7 @@ from fitter.vocabulary.remarks import Code, Severity
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import read_case
 from tests.accuracy.nonsense import DONORS, nonsense
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed
 from tests.shared_data import SHARED_DATA, needs_shared
 

@@ -13,7 +13,7 @@ from fitter.vocabulary.remarks import Code, Severity
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import CaseFiles, read_case
 from tests.accuracy.landmark_points import packaged_model
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed
 
 pytestmark = pytest.mark.slow

@@ -5,9 +5,9 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from fitter.vocabulary.remarks import Code
-from tests.accuracy.capture_examples import WITHOUT_EXAMPLE
 from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.visitor import DESK, PHONE, Visitor
+from tests.illustrations.measuring_sheet import WITHOUT_EXAMPLE
 
 __all__ = ("axe",)
 

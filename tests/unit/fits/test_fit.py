@@ -16,12 +16,11 @@ from fitter.result import FitResult, before_shading
 from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.remarks import Code
-from tests.accuracy.cases import CASES
+from tests.accuracy.cases import CASES, PHONE_PAIRS
 from tests.accuracy.files import read_case
-from tests.accuracy.phone_cases import PHONE_PAIRS
 from tests.accuracy.runs import picture_of
 from tests.accuracy.spoilt import Asked, spoilt_request
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.benchmarks.requests import resized
 from tests.one_picture import changed, together
 

@@ -19,7 +19,7 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender, OptimizerKind, PaperEnergy
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import read_case
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 from tests.benchmarks.requests import resized
 from tests.one_picture import together
 

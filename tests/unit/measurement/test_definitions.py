@@ -14,7 +14,7 @@ from fitter.measurement.definitions import (
     parts_of,
 )
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
-from tests.accuracy.measurements_page import (
+from tests.illustrations.measurements_page import (
     ATLAS_FOLDER,
     described,
     measurements_page,

@@ -7,7 +7,7 @@ from fitter.vocabulary.choices import Cues
 from tests.accuracy.cases import CASES
 from tests.accuracy.clicks import CLICK_DEVIATION_PX
 from tests.accuracy.files import read_case
-from tests.accuracy.suite import fit_request
+from tests.accuracy.true_picture import fit_request
 
 PLACES = np.linspace(0.0, 1.0, 100)[:, None]
 

@@ -1,4 +1,4 @@
-// Which limb each vertex of the body follows, and how far (`python -m tests.accuracy.limb_shares`).
+// Which limb each vertex of the body follows, and how far (`python -m tests.illustrations.limb_shares`).
 import content from "./shares.bin";
 import { CHAINS } from "./flips";
 import type { TurnedLimb } from "./flips";

@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { messages } from "../messages";
 
-/** In the order of the strip of pictures that `tests/accuracy/measuring_sheet.py` draws; bad ones by what is found in them. */
+/** In the order of the strip of pictures that `tests/illustrations/measuring_sheet.py` draws; bad ones by what is found in them. */
 const GOOD = ["front", "armsForward", "armsHanging"] as const;
 const BAD = [
   "cut-off", "person-too-small", "picture-too-small", "camera-too-near", "camera-rolled", "other-view", "arms-against-trunk",

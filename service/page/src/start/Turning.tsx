@@ -1,4 +1,4 @@
-// The first sample's body from all sides, as a strip of views drawn in advance (tests/accuracy/turning_body.py):
+// The first sample's body from all sides, as a strip of views drawn in advance (tests/illustrations/turning_body.py):
 // it is there before the viewer is loaded. A tap holds it; whoever wants little motion sees it stand.
 import { useSignal } from "@preact/signals";
 import { messages } from "../messages";

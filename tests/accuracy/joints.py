@@ -1,4 +1,4 @@
-"""Errors of joints in the camera frame, among themselves."""
+"""Joints found beside true ones, camera frame: distances, and limbs that slant the wrong way."""
 
 from collections.abc import Mapping
 
@@ -15,6 +15,12 @@ MOVED_PARTS: Mapping[str, str] = {
 
 Joints = Float[np.ndarray, "p 3"]
 """Camera frame, metres; NaN where the truth has none."""
+
+WRONG_BY = 0.35
+"""Difference of two slants, as a share of the limb's length, that turns a limb the wrong way if
+they differ in sign: about 20 degrees, more than any unsteady click makes."""
+
+_ENDS = (("upper_arm", "forearm"), ("forearm", "hand"), ("thigh", "shin"), ("shin", "foot"))
 
 _ROOT = 0
 _MILLIMETRES = 1000.0
@@ -42,3 +48,22 @@ def _root(joints: Joints) -> Float[np.ndarray, "3"]:
 
 def _hips_middle(joints: Joints) -> Float[np.ndarray, "3"]:
     return joints[[part_of_joint("left_hip"), part_of_joint("right_hip")]].mean(axis=0)
+
+
+def wrong_limbs(found: Joints, true: Joints) -> tuple[str, ...]:
+    """Names of the limbs that slant the wrong way; joints in the camera frame."""
+    return tuple(
+        f"{side}_{near}"
+        for side in ("left", "right")
+        for near, far in _ENDS
+        if _wrong(_slant(found, side, near, far), _slant(true, side, near, far))
+    )
+
+
+def _wrong(found: float, true: float) -> bool:
+    return found * true < 0.0 and abs(found - true) > WRONG_BY
+
+
+def _slant(joints: Joints, side: str, near: str, far: str) -> float:
+    limb = joints[part_index(f"{side}_{far}")] - joints[part_index(f"{side}_{near}")]
+    return float(limb[2] / np.linalg.norm(limb))

@@ -1,6 +1,6 @@
 """The body that turns on the page's first screen: the first sample's, seen from all around.
 
-``python -m tests.accuracy.turning_body`` fits the sample and draws the strip of views into the
+``python -m tests.illustrations.turning_body`` fits the sample and draws the strip of views into the
 page's sources, from where its build takes it. The file is loaded before anything else of the page
 is used: few views of few pixels.
 """
@@ -24,7 +24,7 @@ from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image
 from service.demo_data.sample import load_sample
-from tests.accuracy.measurements_page import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
+from tests.illustrations.measurements_page import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from tests.one_picture import one_picture
 from tests.unit.export.plain_pictures import block_means
 
@@ -49,10 +49,11 @@ def sample_fit() -> FitResult:
     """The fit of the first sample as its request asks for it."""
     sample = load_sample()
     asked = json.loads(sample.request)
+    points = asked["views"][0]["points"]
     return fit(
         one_picture(
             image=sample.image,
-            clicks={name: Click(x=at["x"], y=at["y"]) for name, at in asked["points"].items()},
+            clicks={name: Click(x=at["x"], y=at["y"]) for name, at in points.items()},
             gender=Gender(asked["gender"]),
             height_m=asked["height_m"],
         )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fitter.vocabulary.measurements import Group
-from tests.accuracy.measurements_page import ATLAS_FOLDER, TAPE, atlas_sheets, sheet_name
+from tests.illustrations.measurements_page import ATLAS_FOLDER, TAPE, atlas_sheets, sheet_name
 
 FOLDER = Path(__file__).parents[3] / ATLAS_FOLDER
 

@@ -1,6 +1,6 @@
 """MEASUREMENTS.md and its pictures: what is measured, and how that stands to standard and survey.
 
-``python -m tests.accuracy.measurements_page`` makes the page of the definitions, and draws the
+``python -m tests.illustrations.measurements_page`` makes the page of the definitions, and draws the
 tape of each measurement on the mean woman into ``fitter/measurement/atlas``, one sheet a group. A
 tape is seen from where most of it is; what the body hides of it is thin.
 """
@@ -40,7 +40,7 @@ _HEADING = """# Measurements
 Every measurement of the service, where its tape runs, its definition, and where it agrees with two
 others: ISO 8559-1:2017, the tailors' standard, and ANSUR II, the US Army's survey of 2012 (fields
 of the public release, NATICK/TR-15/007). What the survey's handbook says of each stands in
-`fitter/measurement/definitions.json`, from which `python -m tests.accuracy.measurements_page`
+`fitter/measurement/definitions.json`, from which `python -m tests.illustrations.measurements_page`
 makes this page.
 
 Bodies are measured in the canonical pose (upright, arms 40 and legs 7 degrees from straight down,

@@ -1,6 +1,6 @@
 """Which limb of the body each vertex follows, for the page: a limb that is clicked turns by it.
 
-``python -m tests.accuracy.limb_shares`` writes what the packaged body models' skinning weights
+``python -m tests.illustrations.limb_shares`` writes what the packaged body models' skinning weights
 say, the mean of both genders, into the page's sources.
 """
 

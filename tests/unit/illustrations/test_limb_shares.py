@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from tests.accuracy.limb_shares import CHAINS, FILE, FULL, shares
+from tests.illustrations.limb_shares import CHAINS, FILE, FULL, shares
 
 
 def test_the_page_has_the_shares_of_the_packaged_models():

@@ -1,0 +1,1 @@
+"""Pictures and data that documentation and page show, each drawn by a command of its own."""
