@@ -1,9 +1,11 @@
-"""What ``import fitter`` offers, and that the examples of its docstrings run."""
+"""What ``import fitter`` offers, that its examples run, and that we use what DBOS publishes."""
 
 import doctest
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +13,8 @@ import fitter
 from fitter import library
 from service.demo_data.sample import load_sample
 from tests.readme import block
+
+REPOSITORY = Path(__file__).parents[2]
 
 NAMES = [
     "BodyEstimate",
@@ -113,3 +117,34 @@ def test_examples_run(fitted):
     failed, tried = doctest.testmod(library, extraglobs=fitted)
     assert tried > 0
     assert failed == 0
+
+
+PRIVATE = re.compile(
+    r"from dbos(\.\w+)* import .*\b_|(from|import) dbos\._|\b(DBOS|client|dbos)\._[a-z]"
+    r"|\b(FROM|INTO|UPDATE) (dbos\.|workflow_status|operation_outputs)"
+)
+"""Modules and names that begin with an underscore, and its tables in a statement."""
+
+
+def test_nothing_uses_what_is_not_published():
+    sources = [*(REPOSITORY / "service").rglob("*.py"), *(REPOSITORY / "tests").rglob("*.py")]
+    assert [
+        f"{path.relative_to(REPOSITORY)}: {found[0]}"
+        for path in sources
+        if path != Path(__file__)
+        for found in PRIVATE.finditer(path.read_text())
+    ] == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "from dbos._sys_db import SystemDatabase",
+        "from dbos import DBOS, _queue",
+        "import dbos._queue",
+        "DBOS._recover_pending_workflows([])",
+        "SELECT status FROM dbos.workflow_status",
+    ],
+)
+def test_a_private_use_is_found(source: str):
+    assert PRIVATE.search(source)

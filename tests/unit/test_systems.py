@@ -11,8 +11,6 @@ REPOSITORY = Path(__file__).parents[2]
 SYSTEM = runpy.run_path(str(REPOSITORY / ".ci" / "system.py"))
 ELSEWHERE = f"Maquette runs on {SYSTEM['SYSTEMS']}. Elsewhere run its image: docker/Dockerfile."
 
-OLD = "Maquette needs Python 3.11 or newer: make PYTHON=..."
-
 
 @pytest.mark.parametrize(
     ("system", "machine", "libc", "python", "fault"),
@@ -35,11 +33,6 @@ OLD = "Maquette needs Python 3.11 or newer: make PYTHON=..."
 )
 def test_systems_that_it_does_not_run_on_are_told_apart(system, machine, libc, python, fault):
     assert SYSTEM["fault"](system, machine, libc, python) == fault
-
-
-@pytest.mark.parametrize("page", ["README.md", "service/docs/start.md"])
-def test_the_pages_for_beginners_name_the_systems(page: str):
-    assert SYSTEM["SYSTEMS"] in " ".join((REPOSITORY / page).read_text().split())
 
 
 def test_make_ends_with_the_sentence_and_installs_nothing(tmp_path: Path):
