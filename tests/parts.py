@@ -38,7 +38,7 @@ LONGEST = (
     "unit/optimizer/test_recovery.py",
     "unit/training/test_rig.py",
     "unit/training/test_bone_centres.py",
-    "unit/service/products",
+    "unit/service/test_bodies_of_fits.py",
     "unit/optimizer/test_free_space.py",
     "unit/training/test_volume.py",
 )

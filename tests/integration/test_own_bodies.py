@@ -23,7 +23,7 @@ from fitter.training.own_bodies.template import TEMPLATE_FILE
 from fitter.training.shapes.principal_shapes import project, vertex_masses
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.points import POINT_NAMES
-from tests.unit.training.own_bodies.bodies_folder import (
+from tests.unit.training.own_bodies_folder import (
     DECLARED,
     packaged,
     random_shapes,

@@ -246,14 +246,6 @@ def test_a_stretch_of_the_walk_is_what_was_asked_for(body):
     assert len(later.poses) == len(whole.motion.poses)
 
 
-def test_a_walk_that_is_too_long_is_cut_and_says_so(body):
-    found = motion_of_name(body.rig, "walk", duration_s=20.0)
-    assert len(found.motion.poses) == MOST_FRAMES
-    (warning,) = found.warnings
-    assert warning.code == "clip-cut"
-    assert " of 20." in warning.reason or " of 19.9" in warning.reason
-
-
 def walked(body, roots=None):
     """One stride, as of a file that says where its hips are if these are given."""
     stride = stride_of(body.rig)

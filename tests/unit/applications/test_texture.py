@@ -183,14 +183,6 @@ def test_the_albedo_comes_back_from_under_the_light(sitter):
     assert np.median(error(sitter, painted, TexelOrigin.SEEN)) > 5.0 * np.median(seen)
 
 
-def test_a_picture_of_another_scale_gives_the_same(sitter, texture):
-    small = cv2.resize(sitter.even, (450, 600), interpolation=cv2.INTER_AREA)
-    found = picture_texture(sitter.person, sitter.evaluator, small, size=512)
-    both = (found.coverage == TexelOrigin.SEEN) & (texture.coverage == TexelOrigin.SEEN)
-    difference = np.abs(found.levels.astype(int) - texture.levels)[both]
-    assert np.percentile(difference, 99) <= 4
-
-
 def test_a_large_picture_is_read_at_two_megapixels():
     picture = linear_picture(np.full((3000, 4000, 3), 188, dtype=np.uint8))
     assert picture.shape == (1224, 1632, 3)

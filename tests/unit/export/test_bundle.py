@@ -1,12 +1,21 @@
+"""The files of a result, and the lines of its tapes."""
+
+import json
+
 import cv2
 import numpy as np
 import pytest
 
+from fitter.body.scape import ScapeEvaluator
+from fitter.export import tapes_json
 from fitter.export.bundle import result_files
 from fitter.export.display import png
+from fitter.measurement.anthropometry import measuring_body, tape_lines
+from fitter.measurement.definitions import Height, Length
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.export.results import CAMERA, result_of
+from tests.unit.measurement.made_up import about
 
 ALWAYS = {
     "views/0/body_posed.glb",
@@ -86,3 +95,20 @@ def test_the_highlight_is_what_distinguishes_blinn_phong_from_lambert(files):
 
 def test_the_same_result_gives_the_same_bytes(files, model, image):
     assert result_files(result_of(model), model=model, images=[image]) == files
+
+
+DEFINITIONS = (
+    Height(about=about("stature"), point=("crown",)),
+    Length(about=about("length"), path=(("joint:bottom",), ("joint:top",))),
+)
+
+
+def test_lines_lie_in_the_frame_of_the_canonical_body():
+    model = bar_model()
+    result = result_of(model)
+    measuring = measuring_body(model, ScapeEvaluator(model), DEFINITIONS)
+    document = json.loads(tapes_json(result, measuring))
+    lowest = result.canonical_vertices[:, 1].min()
+    for name, line in tape_lines(measuring, result.person.body.shape).items():
+        expected = line - [0.0, lowest, 0.0]
+        assert np.array(document["lines"][name]) == pytest.approx(expected, abs=6e-5)

@@ -1,11 +1,16 @@
+"""Pictures of a result: drawn lines, masks, values on vertices anti-aliased, and PNG."""
+
+import io
 from dataclasses import replace
 
 import cv2
 import numpy as np
 import pytest
+from PIL import Image as PillowImage
 
 from fitter.export._antialiasing_kernels import levels_of
-from fitter.export.display import finer, levels_of_linear, png, slope_bounds, to_levels
+from fitter.export.antialiasing import PAPER, SAMPLES, render_finely, vertex_pictures
+from fitter.export.display import finer, levels_of_linear, png_file, slope_bounds, to_levels
 from fitter.export.pictures import (
     INNER_COLOUR,
     OUTER_COLOUR,
@@ -18,11 +23,10 @@ from fitter.export.pictures import (
 )
 from fitter.numerics.meshes import mesh_topology
 from fitter.observation.pixels import display_from_linear
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import render, shade_image
 from fitter.segmentation.trimap import TrimapLabel
-from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.plain_pictures import block_means
-from tests.unit.export.results import CAMERA, result_of
+from tests.unit.export.results import CAMERA
 from tests.unit.measurement.solids import sphere
 
 
@@ -30,10 +34,6 @@ from tests.unit.measurement.solids import sphere
 def ball():
     vertices, triangles = sphere(radius=0.3, rings=40, sides=80)
     return vertices + [0.05, -0.1, 2.0], triangles
-
-
-def decoded(content):
-    return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
 
 
 def outlined(picture, vertices, triangles):
@@ -127,15 +127,6 @@ def test_a_ball_before_a_ball_has_an_inner_edge_of_another_colour(ball):
     assert two.sum() > 100
 
 
-def test_png_keeps_levels_and_colour_order():
-    levels = np.random.default_rng(0).integers(0, 256, size=(20, 30, 4), dtype=np.uint8)
-    np.testing.assert_array_equal(decoded(png(levels))[:, :, [2, 1, 0, 3]], levels)
-    levels = levels[..., :3]
-    np.testing.assert_array_equal(decoded(png(levels))[:, :, ::-1], levels)
-    np.testing.assert_array_equal(decoded(png(levels[..., 0])), levels[..., 0])
-    assert png(levels) == png(levels)
-
-
 def test_linear_light_is_coded_by_the_table_as_by_the_formula():
     linear = np.linspace(-0.1, 1.1, 400_000).reshape(400, 1000)
     for values in (linear, linear.astype(np.float32), linear[::2, ::-1]):
@@ -160,12 +151,6 @@ def test_slopes_are_bounded_column_by_column():
     np.testing.assert_array_equal(high, flat.max(axis=0))
 
 
-def test_block_means_are_means():
-    picture = np.arange(24.0).reshape(4, 6)
-    expected = picture.reshape(2, 2, 3, 2).mean(axis=(1, 3))
-    np.testing.assert_allclose(block_means(picture, 2), expected)
-
-
 def test_a_finer_camera_sees_the_same_with_more_pixels(ball):
     vertices, _ = ball
     np.testing.assert_allclose(
@@ -173,8 +158,111 @@ def test_a_finer_camera_sees_the_same_with_more_pixels(ball):
     )
 
 
-def test_the_fixture_result_lies_in_the_picture():
-    result = result_of(bar_model())
-    pixels = CAMERA.project(result.found.posed_vertices)
-    assert (pixels > 0).all()
-    assert (pixels < [CAMERA.width, CAMERA.height]).all()
+@pytest.fixture(scope="module")
+def plain_picture(columns, vertices, triangles, camera):
+    """Rendered whole at the finer size, interpolated, averaged and coded step by step."""
+    rendering = render(vertices, triangles, finer(camera, SAMPLES))
+    seen = [shade_image(rendering, column, background=PAPER) for column in columns]
+    means = [block_means(np.clip(channel, 0.0, 1.0), SAMPLES) for channel in seen]
+    return np.stack([to_levels(display_from_linear(mean)) for mean in means], axis=2)
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        CAMERA,
+        pytest.param(replace(CAMERA, centre_x=20.0, centre_y=380.0), id="over the border"),
+        pytest.param(replace(CAMERA, centre_x=-900.0), id="beside the picture"),
+        pytest.param(CAMERA.scaled(9.0, width=480, height=400), id="wider than the picture"),
+    ],
+)
+def test_in_one_pass_as_step_by_step(ball, camera):
+    vertices, triangles = ball
+    draws = np.random.default_rng(3)
+    colours, grey = draws.normal(0.4, 0.5, (len(vertices), 3)), draws.random(len(vertices))
+    coloured, pale = vertex_pictures([colours, grey], render_finely(vertices, triangles, camera))
+    for picture, columns in ((coloured, colours.T), (pale, [grey] * 3)):
+        plain = plain_picture(columns, vertices, triangles, camera)
+        difference = np.abs(picture.astype(int) - plain)
+        # The plain means are in single precision: they may fall on the other side of a half.
+        assert difference.max() <= 1
+        assert (difference > 0).mean() < 1e-4
+
+
+def test_a_mesh_that_reaches_behind_the_camera_is_drawn_as_far_as_it_is_before_it(ball):
+    vertices, triangles = ball
+    near = vertices - [0.05, -0.1, 1.9]
+    grey = np.full(len(near), 0.5)
+    (picture,) = vertex_pictures([grey], render_finely(near, triangles, CAMERA))
+    np.testing.assert_array_equal(picture, plain_picture([grey] * 3, near, triangles, CAMERA))
+
+
+def test_a_value_on_vertices_is_shown_in_display_levels_on_white(ball):
+    vertices, triangles = ball
+    fine = render_finely(vertices, triangles, CAMERA)
+    colours = np.tile([0.5, 0.0, 2.0], (len(vertices), 1))
+    grey, coloured = vertex_pictures([np.full(len(vertices), 0.5), colours], fine)
+    x, y = CAMERA.project(vertices.mean(axis=0)).astype(int)
+    assert grey[y, x].tolist() == [188, 188, 188]
+    assert grey[5, 5].tolist() == [255, 255, 255]
+    assert coloured[y, x].tolist() == [188, 0, 255]
+
+
+def test_every_level_is_reached_as_by_rounding(ball):
+    vertices, triangles = ball
+    fine = render_finely(vertices, triangles, CAMERA)
+    x, y = CAMERA.project(vertices.mean(axis=0)).astype(int)
+    values = np.linspace(0.0, 1.0, 300)
+    pictures = vertex_pictures([np.full(len(vertices), value) for value in values], fine)
+    shown = pictures[:, y, x, 0]
+    np.testing.assert_array_equal(shown, to_levels(display_from_linear(values)))
+
+
+def test_rims_are_anti_aliased(ball):
+    vertices, triangles = ball
+    fine = render_finely(vertices, triangles, CAMERA)
+    (picture,) = vertex_pictures([np.zeros(len(vertices))], fine)
+    between = (picture[..., 0] > 0) & (picture[..., 0] < 255)
+    assert between.sum() > 200
+
+
+DRAWS = np.random.default_rng(5)
+
+
+def smooth_picture(height, width, channels):
+    """Slopes, noise on a part of them, and a large even part."""
+    y, x, c = np.mgrid[:height, :width, :channels]
+    picture = 40.0 + 0.3 * x + 0.2 * y + 9.0 * c
+    picture[: height // 2, : width // 2] += DRAWS.normal(
+        0.0, 4.0, (height // 2, width // 2, channels)
+    )
+    picture[height // 2 :, width // 2 :] = 255.0
+    return picture.clip(0.0, 255.0).astype(np.uint8)
+
+
+@pytest.mark.parametrize("channels", [1, 3, 4])
+@pytest.mark.parametrize(("height", "width"), [(1, 1), (3, 7), (240, 321)])
+def test_pictures_are_read_by_others_as_they_were_written(height, width, channels):
+    levels = smooth_picture(height, width, channels)
+    content = png_file(levels)
+    with PillowImage.open(io.BytesIO(content)) as picture:
+        picture.verify()
+    with PillowImage.open(io.BytesIO(content)) as picture:
+        assert picture.mode == {1: "L", 3: "RGB", 4: "RGBA"}[channels]
+        np.testing.assert_array_equal(np.asarray(picture).reshape(levels.shape), levels)
+    read = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+    assert read is not None
+    order = [0] if channels == 1 else [2, 1, 0, 3][:channels]
+    np.testing.assert_array_equal(read.reshape(levels.shape)[..., order], levels)
+
+
+def test_files_are_about_as_large_as_opencvs():
+    levels = smooth_picture(480, 640, 3)
+    settings = (cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, 3)
+    _, content = cv2.imencode(".png", levels[..., ::-1], settings)
+    assert len(png_file(levels)) < 1.1 * len(content)
+
+
+def test_a_view_of_a_picture_is_written_like_a_copy():
+    levels = smooth_picture(40, 60, 3)
+    assert png_file(levels[5:, ::2, ::-1]) == png_file(levels[5:, ::2, ::-1].copy())

@@ -8,6 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageOps
 
+from api_schemas.picture import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX
+from fitter.observation import decoding
 from service.submissions import image_header
 from service.submissions.image_header import (
     DamagedImageError,
@@ -155,3 +157,8 @@ def test_scans_are_neither_hidden_nor_found_where_there_are_none():
     assert read_image_header(plain[:2] + told + plain[2:] + comment).scans == 1
     # Among coded pixels a decoder passes over a marker of no meaning and its length.
     assert read_image_header(with_scans(300, hidden=b"\xff\x02\xff\xff")).scans == 300
+
+
+def test_clients_are_told_the_limits_that_the_decoder_has():
+    assert LEAST_SIDE_PX == decoding.LEAST_SIDE_PX
+    assert LARGEST_ASPECT_RATIO == decoding.LARGEST_ASPECT_RATIO

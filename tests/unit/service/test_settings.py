@@ -25,10 +25,6 @@ def test_an_empty_variable_counts_as_unset(monkeypatch):
     assert Settings() == Settings.model_construct()
 
 
-def test_every_setting_says_what_it_is_for():
-    assert all(field.description for field in Settings.model_fields.values())
-
-
 def test_the_database_is_embedded_unless_one_is_named(tmp_path):
     embedded = Settings(data_dir=tmp_path)
     assert embedded.system_database_url == f"sqlite:///{tmp_path}/maquette.sqlite"

@@ -6,11 +6,9 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.fit import FitRequest
-from api_schemas.points import Point, Points, named_points
+from api_schemas.points import Points, named_points
 from fitter import request as fitter_request
 from fitter.detection.landmark_meanings import SPREAD_EXPONENT, spread_m
-from fitter.errors import InvalidInputError
-from fitter.fits.progress import Progress, Stage
 from fitter.vocabulary.choices import LightKind, PaperEnergy
 from fitter.vocabulary.points import POINT_NAMES
 from service.compute import translate
@@ -145,13 +143,6 @@ def test_a_detectors_point_binds_less_the_less_sure_it_is():
     assert elbow_spread_m(0.01) == elbow_spread_m(0.02)
 
 
-def test_what_the_detector_is_to_do_is_said_in_both_languages():
-    (usual,) = fit_request().views
-    assert not usual.complete_clicks
-    (other,) = translated(complete_points=True).views
-    assert other.complete_clicks
-
-
 def test_degrees_become_radians():
     light = fit_request().views[0].light
     assert light.kind is LightKind.DIRECTIONAL
@@ -178,31 +169,3 @@ def test_every_point_is_a_landmark_of_the_models():
         assert set(POINT_NAMES) <= set(model.landmarks)
         assert 1.5 < model.mean_height_m < 1.9
         assert model.licences
-
-
-def test_progress_and_complaints_keep_their_words():
-    report = translate.report(
-        Progress(stage=Stage.SHADING, fraction=0.5, energies={"silhouette": 2.0})
-    )
-    assert (report.stage, report.progress, report.energies) == (
-        "shading",
-        0.5,
-        {"silhouette": 2.0},
-    )
-    error = InvalidInputError(code="a-code", field="mask", reason="Why.", remedy="What.")
-    assert translate.field_problem(error).model_dump() == {
-        "field": "mask",
-        "code": "a-code",
-        "reason": "Why.",
-        "remedy": "What.",
-        "largest": None,
-    }
-
-
-def test_who_insists_says_so_in_both_languages():
-    assert not fit_request().choices.force
-    assert translate.fit_request(asked({}, force=True), NO_PICTURE, max_pixels=1).choices.force
-
-
-def test_points_are_full_form_after_the_checks():
-    assert Point(x=1.0, y=2.0).visibility == translate.SEEN
