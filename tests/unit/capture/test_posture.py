@@ -1,15 +1,35 @@
-"""Who sits, bends or lies, and who is a child."""
+"""Posture: standing, turned, arms at the trunk; and loose clothes."""
 
+import math
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
+from fitter.capture.clothes import clothes
 from fitter.capture.people import proportions
-from fitter.capture.posture import detected_directions, posture
+from fitter.capture.posture import (
+    announced_view,
+    arms,
+    detected_directions,
+    facing,
+    free_share,
+    posture,
+    seen_from,
+)
 from fitter.detection.detector import DetectedBody, LimbSlant
+from fitter.vocabulary.choices import BodyRegion, Covering, ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, WornRegion
 from fitter.vocabulary.remarks import Code, Severity
-from tests.unit.capture.made_up import by_points_alone, capture, is_unchecked, person
+from tests.unit.capture.made_up import (
+    FRONT,
+    by_points_alone,
+    capture,
+    is_finding,
+    is_unchecked,
+    person,
+)
 
 UP, DOWN, AWAY = np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]])
 ACROSS = np.array([1.0, 0.0, 0.0])
@@ -144,3 +164,151 @@ def test_children_are_told_by_their_eyes():
 
 def test_of_who_sits_proportions_are_not_told():
     assert is_unchecked(proportions(capture(seen(-0.95))))
+
+
+def turned(degrees: float) -> dict[str, tuple[float, float]]:
+    """Shoulders and hips of the person who faces the camera, turned about the upright axis."""
+    shrink = math.cos(math.radians(degrees))
+    return {
+        name: (200 + shrink * (x - 200), y)
+        for name, (x, y) in FRONT.items()
+        if "shoulder" in name or "hip" in name
+    }
+
+
+@pytest.mark.parametrize("degrees", [20.0, 45.0, 70.0, 90.0, 110.0, 150.0, 180.0])
+def test_how_far_a_trunk_is_turned_is_found_from_its_breadth(degrees):
+    cosine = facing(capture(person(**turned(degrees))))
+    assert cosine is not None
+    assert math.degrees(math.acos(cosine)) == pytest.approx(degrees, abs=8.0)
+
+
+def test_a_roll_of_the_camera_turns_nobody():
+    rolled = {name: (640.0 - y, x) for name, (x, y) in FRONT.items()}
+    assert facing(capture(person(**rolled))) == pytest.approx(facing(capture()))
+
+
+@pytest.mark.parametrize(
+    ("degrees", "seen"),
+    [
+        (0.0, SeenFrom.FRONT),
+        (35.0, SeenFrom.FRONT),
+        (58.0, SeenFrom.BETWEEN),
+        (80.0, SeenFrom.SIDE),
+        (100.0, SeenFrom.SIDE),
+        (122.0, SeenFrom.BETWEEN),
+        (150.0, SeenFrom.BACK),
+    ],
+)
+def test_views_have_names(degrees, seen):
+    assert seen_from(math.cos(math.radians(degrees))) is seen
+
+
+@pytest.mark.parametrize(
+    ("view", "degrees", "severity"),
+    [
+        (ViewKind.FRONT, 10.0, None),
+        (ViewKind.SIDE, 85.0, None),
+        (ViewKind.BACK, 175.0, None),
+        (ViewKind.OTHER, 60.0, None),
+        (None, 60.0, None),
+        (ViewKind.FRONT, 60.0, Severity.HARMS),
+        (ViewKind.FRONT, 90.0, Severity.BLOCKS),
+        (ViewKind.FRONT, 180.0, Severity.BLOCKS),
+        (ViewKind.SIDE, 0.0, Severity.BLOCKS),
+        (ViewKind.BACK, 0.0, Severity.BLOCKS),
+    ],
+)
+def test_a_view_other_than_was_said_is_told(view, degrees, severity):
+    found = announced_view(capture(person(**turned(degrees)), view=view))
+    if severity is None:
+        assert found is None
+        return
+    assert found is not None
+    assert (found.code, found.severity) == (Code.OTHER_VIEW, severity)
+
+
+def test_points_alone_tell_the_view_and_half_a_trunk_does_not():
+    assert is_finding(announced_view(by_points_alone(view=ViewKind.SIDE)))
+    half = {name: at for name, at in by_points_alone().points.items() if "left" in name}
+    assert is_unchecked(announced_view(by_points_alone(view=ViewKind.SIDE, points=half)))
+
+
+HANGING = {"left_elbow": (258.0, 220.0), "left_wrist": (255.0, 285.0)}
+SIDEWAYS = {
+    f"{side}_{joint}": (200.0, y)
+    for joint, y in (("shoulder", 140.0), ("hip", 290.0))
+    for side in ("left", "right")
+}
+
+
+def test_arms_held_away_are_free():
+    whole = capture()
+    assert whole.mask is not None
+    assert arms(whole) is None
+    for side in ("left", "right"):
+        assert free_share(whole, whole.mask, side) == 1.0
+
+
+def test_an_arm_that_hangs_along_the_trunk_is_told_by_its_side():
+    found = person(**HANGING)
+    cv2.line(found.mask, (240, 150), (240, 285), 1.0, 40)
+    told = arms(capture(found))
+    assert told is not None
+    assert (told.code, told.where) == (Code.ARMS_AGAINST_TRUNK, ("left_elbow", "left_wrist"))
+    assert "0 % of the left arm" in told.reason
+
+
+def test_arms_are_looked_at_from_the_front_and_from_behind_alone_and_with_an_outline():
+    mirrored = {name: (400.0 - x, y) for name, (x, y) in _places().items()}
+    assert arms(capture(person(**mirrored))) is None
+    assert is_unchecked(arms(capture(person(**SIDEWAYS))))
+    assert is_unchecked(arms(by_points_alone()))
+
+
+def worn(**kinds: Covering) -> tuple[WornRegion, ...]:
+    return tuple(
+        WornRegion(
+            region=BodyRegion(region),
+            kind=kind,
+            probability=0.8,
+            ease_cm=None,
+            ease_standard_error_cm=None,
+        )
+        for region, kind in kinds.items()
+    )
+
+
+@pytest.mark.parametrize(
+    ("kinds", "said"),
+    [
+        ({"upper": Covering.LOOSE, "lower": Covering.CLOSE}, "cover the upper body, with"),
+        ({"upper": Covering.BARE, "lower": Covering.LOOSE, "legs": Covering.LOOSE},
+         "cover the thighs and the lower legs, with a probability of 80 %"),
+    ],
+)  # fmt: skip
+def test_loose_clothes_are_told_by_the_regions_that_they_cover(kinds, said):
+    told = clothes(capture(clothing=worn(**kinds)))
+    assert told is not None
+    assert (told.code, told.severity) == (Code.CLOTHES_LOOSE, Severity.HARMS)
+    assert said in told.reason
+    assert ("left_shoulder" in told.where) is (kinds["upper"] is Covering.LOOSE)
+
+
+def test_close_clothes_sleeves_and_shoes_are_no_fault():
+    close = worn(upper=Covering.CLOSE, lower=Covering.BARE, arms=Covering.LOOSE)
+    assert clothes(capture(clothing=close)) is None
+
+
+def test_without_an_outline_clothes_are_not_checked():
+    assert is_unchecked(clothes(by_points_alone()))
+
+
+def test_without_the_skins_colour_it_is_said_that_clothes_cannot_be_seen():
+    told = clothes(capture(clothing=None))
+    assert told is not None
+    assert (told.code, told.severity) == (Code.SKIN_NOT_FOUND, Severity.HARMS)
+
+
+def _places() -> dict[str, tuple[float, float]]:
+    return {name: (click.x, click.y) for name, click in person().points.items()}

@@ -158,7 +158,6 @@ def test_a_finer_camera_sees_the_same_with_more_pixels(ball):
     )
 
 
-@pytest.fixture(scope="module")
 def plain_picture(columns, vertices, triangles, camera):
     """Rendered whole at the finer size, interpolated, averaged and coded step by step."""
     rendering = render(vertices, triangles, finer(camera, SAMPLES))

@@ -84,11 +84,6 @@ def test_what_is_done_to_a_good_picture_is_found(how, code, severity):
     assert check.checked.usable is (severity is not Severity.BLOCKS)
 
 
-def test_a_roll_is_measured():
-    lean = checked(spoilt("rolled")).checked.lean_deg
-    assert lean == pytest.approx(-ROLLED_DEG, abs=2.0)
-
-
 def test_places_are_in_the_pixels_of_the_original_whatever_its_size():
     small = checked(sample()).checked.box
     large = checked(cv2.resize(sample(), (1440, 1920))).checked.box

@@ -234,13 +234,6 @@ def test_a_view_that_cannot_be_used_is_named():
     assert caught.value.code.startswith("image-")
 
 
-def test_a_fault_of_the_only_picture_is_in_its_first_place():
-    request = asked(STANDING)
-    with pytest.raises(InvalidInputError) as caught:
-        fit(replace(request, views=(broken(request),)))
-    assert caught.value.field == "views.0.image"
-
-
 @pytest.mark.parametrize("count", [1, 2])
 @pytest.mark.parametrize(
     ("said", "field"),
@@ -281,13 +274,6 @@ def test_a_weight_that_the_pictures_contradict_is_named(names):
     (warning,) = result.warnings
     assert warning.code == "given-contradicted"
     assert warning.reason.startswith("weight was given as 45.0 kg, but")
-
-
-def test_a_view_from_another_side_than_announced_is_named():
-    result = fit(together(asked(STANDING, ViewKind.SIDE), asked(TURNED, ViewKind.OTHER)))
-    assert warned(result) == ["other-view"]
-    assert "views.0 is said to be from the side" in result.warnings[0].reason
-    assert "other-view" in {each.code for each in result.views[0].findings}
 
 
 def test_left_and_right_of_a_mirrored_picture_are_doubted():

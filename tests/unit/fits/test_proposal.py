@@ -1,4 +1,7 @@
-"""What is proposed of a picture: the points a fit would propose to itself, and what is told."""
+"""Points that are proposed, and what is said of them."""
+
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,10 +10,9 @@ from PIL import Image as PillowImage
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import CaptureQuestion
-from fitter.fits.proposal import Proposal, propose
+from fitter.fits.proposal import Proposal, proposal_warnings, propose
 from fitter.observation.observation import observe
-from fitter.request import View
-from service.demo_data.sample import load_sample
+from fitter.request import Click, View
 from tests.accuracy.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
 
@@ -61,13 +63,6 @@ def test_the_points_are_those_a_fit_proposes_to_itself():
         assert (point.click.spread_m, point.click.occluded) == (inside.spread_m, inside.occluded)
 
 
-def test_the_person_of_the_sample_is_found():
-    proposal = proposed(load_sample().image)
-    (box,) = proposal.persons
-    assert box == pytest.approx((163, 41, 559, 895), abs=12)
-    assert codes(proposal) == []
-
-
 def test_the_mask_has_the_picture_s_size_and_covers_the_person():
     true = PillowImage.open(PICTURES_FOLDER / f"{CASE}_person.png").convert("L")
     size = (1501, 2003)
@@ -107,3 +102,58 @@ def test_a_person_at_the_border_and_a_small_one_are_told():
     small = encode(person.resize((width // 4, height // 4)))
     assert "picture-too-small" in codes(proposed(small))
     assert codes(proposed(picture())) == []
+
+
+FRONT = {
+    "nose": (100, 30),
+    "left_eye": (105, 25), "right_eye": (95, 25), "left_ear": (110, 27), "right_ear": (90, 27),
+    "left_shoulder": (130, 60), "right_shoulder": (70, 60),
+    "left_elbow": (145, 110), "right_elbow": (55, 110),
+    "left_wrist": (150, 150), "right_wrist": (50, 150),
+    "left_hip": (115, 150), "right_hip": (85, 150),
+    "left_knee": (117, 210), "right_knee": (83, 210),
+    "left_ankle": (118, 270), "right_ankle": (82, 270),
+    "left_heel": (117, 278), "right_heel": (83, 278),
+    "left_toe": (122, 285), "right_toe": (78, 285),
+}  # fmt: skip
+
+
+def person(**moved: tuple[float, float]) -> dict[str, Click]:
+    """Somebody who stands upright before the camera."""
+    return {name: Click(x=x, y=y) for name, (x, y) in (FRONT | moved).items()}
+
+
+def codes_of(points: Mapping[str, Click]) -> list[str]:
+    return [each.code for each in proposal_warnings(points)]
+
+
+def test_there_is_nothing_to_say_of_somebody_upright_and_whole():
+    assert codes_of(person()) == []
+
+
+def test_a_back_is_told_from_a_front_by_the_face():
+    mirrored = {name: (200 - x, y) for name, (x, y) in FRONT.items()}
+    facing = person(**mirrored)
+    assert "seen-from-behind" not in codes_of(facing)
+    hidden = {
+        name: replace(facing[name], occluded=True) for name in ("nose", "left_eye", "right_eye")
+    }
+    assert codes_of(facing | hidden) == ["seen-from-behind"]
+    assert codes_of(person() | hidden) == []
+
+
+@pytest.mark.parametrize(
+    "moved",
+    [
+        {"left_wrist": (70, 140), "right_wrist": (130, 140)},
+        {"left_ankle": (85, 270), "right_ankle": (117, 270)},
+        {"right_wrist": (150, 90)},
+    ],
+    ids=["wrists", "ankles", "a forearm over the other arm"],
+)
+def test_limbs_that_cross_are_told(moved):
+    assert codes_of(person(**moved)) == ["limbs-crossed"]
+
+
+def test_a_hand_on_the_other_hip_crosses_nothing():
+    assert codes_of(person(left_wrist=(90, 148))) == []

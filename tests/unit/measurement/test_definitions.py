@@ -15,10 +15,8 @@ from fitter.measurement.definitions import (
 )
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
 from tests.illustrations.measurements_page import (
-    ATLAS_FOLDER,
     described,
     measurements_page,
-    sheet_name,
 )
 
 REQUIRED = {
@@ -114,27 +112,3 @@ PAGE = Path(__file__).parents[3] / "MEASUREMENTS.md"
 
 def test_the_page_of_measurements_is_the_one_the_definitions_make():
     assert PAGE.read_text(encoding="utf-8") == measurements_page()
-
-
-def test_every_measurement_has_one_row_with_four_cells():
-    definitions = load_definitions()
-    rows = [line for line in measurements_page().splitlines() if line.startswith("| `")]
-    assert len(rows) == len(definitions)
-    for row, definition in zip(rows, definitions, strict=True):
-        assert row.startswith(f"| `{definition.about.name}`")
-        assert row.count(" | ") == 3
-
-
-def test_a_measurement_stands_with_its_clause_and_its_field():
-    (row,) = [
-        line for line in measurements_page().splitlines() if line.startswith("| `neck_girth`")
-    ]
-    assert "Neck girth (5.3.2)" in row
-    assert "`neckcircumference`" in row
-
-
-def test_every_group_has_its_picture():
-    page = measurements_page()
-    for group in Group:
-        assert f"({ATLAS_FOLDER}/{sheet_name(group)})" in page
-        assert (PAGE.parent / ATLAS_FOLDER / sheet_name(group)).is_file()

@@ -10,7 +10,6 @@ from fitter.body.shape_space import height_of_shape
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.measurement.anthropometry import (
     MeasuringBody,
-    measure,
     measurement_jacobian,
     measurement_values,
     measuring_body,
@@ -93,18 +92,6 @@ def test_only_the_height_axis_changes_stature(trained, mean_shape):
     row = measurement_jacobian(body, mean_shape)[names.index("stature")]
     assert abs(row[0]) > 4.0
     assert np.abs(row[1:]).max() < 0.1
-
-
-def test_girths_keep_the_order_they_have_on_people(trained, mean_shape):
-    _, _, body = trained
-    rng = np.random.default_rng(5)
-    for _ in range(5):
-        values = by_name(body, measurement_values(body, rng.normal(size=len(mean_shape))))
-        assert values["waist_girth_smallest"] <= values["waist_girth_navel"] + 1e-9
-        assert values["wrist_girth"] < values["forearm_girth"] < values["calf_girth"]
-        assert values["ankle_girth"] < values["calf_girth"] < values["thigh_girth"]
-        assert values["neck_girth"] < values["thigh_girth"] < values["hip_girth"]
-        assert values["inseam"] < 0.55 * values["stature"]
 
 
 def test_measurements_keep_the_order_they_have_on_people(trained, mean_shape):
@@ -194,14 +181,6 @@ def test_the_jacobian_agrees_with_measuring_changed_bodies_afresh(trained, mean_
         change = 0.05 * np.eye(len(mean_shape))[index]
         fresh = (measurement_values(body, change) - measurement_values(body, -change)) / 0.1
         np.testing.assert_allclose(jacobian[:, index], fresh, atol=0.05)
-
-
-def test_errors_come_with_a_covariance_in_each_measurements_unit(trained, mean_shape):
-    _, _, body = trained
-    spread = 0.01 * np.eye(len(mean_shape))
-    for measured in measure(body, mean_shape, shape_covariance=spread):
-        assert measured.standard_error is not None
-        assert 0.0 < measured.standard_error < 5.0, measured.name
 
 
 def test_a_girth_is_the_same_wherever_the_body_stands(trained, mean_shape):

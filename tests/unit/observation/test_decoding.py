@@ -1,5 +1,4 @@
 import contextlib
-import io
 import struct
 import zlib
 
@@ -93,12 +92,6 @@ def test_too_many_pixels_are_refused_before_decoding():
     assert code_of(bomb, max_pixels=50_000_000) == "image-too-large"
 
 
-def test_a_decompression_bomb_is_refused():
-    bomb = encode(PillowImage.new("1", (20_000, 20_000)))
-    assert len(bomb) < 100_000
-    assert code_of(bomb, max_pixels=50_000_000) == "image-too-large"
-
-
 @pytest.mark.parametrize("kind", ["PNG", "WEBP"])
 def test_an_animated_picture_is_refused(kind: str):
     data = encode(RGB, kind, save_all=True, append_images=[RGB.rotate(90)], duration=100)
@@ -139,10 +132,6 @@ def test_a_16_bit_colour_picture_keeps_its_upper_8_bits():
 def test_a_palette_picture_is_looked_up():
     indexed = SMOOTH.quantize(64)
     np.testing.assert_array_equal(decode(encode(indexed)), np.asarray(indexed.convert("RGB")))
-
-
-def test_a_bilevel_picture_is_black_and_white():
-    assert set(np.unique(decode(encode(RGB.convert("1"))))) == {0, 255}
 
 
 def test_a_cmyk_picture_is_converted():
@@ -307,13 +296,6 @@ def test_a_mask_of_more_pixels_than_are_decoded_is_refused():
 def test_pictures_of_phones_pass():
     assert Choices().max_pixels >= 12_240 * 16_320
     assert WHOLE_PIXELS >= 8_192 * 6_144
-
-
-@pytest.mark.parametrize("kind", ["PNG", "WEBP"])
-def test_other_kinds_are_decoded_whole(kind: str):
-    picture = reduced(encode(LARGE, kind), 0.0)
-    assert picture.reduction == 1
-    assert picture.pixels.shape == (1335, 1001, 3)
 
 
 def test_a_jpeg_that_breaks_off_is_refused_at_any_size():

@@ -10,16 +10,14 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from fitter.errors import InvalidInputError
-from fitter.observation.decoding import DecodedPicture, decode_coverage, decode_picture
+from fitter.observation.decoding import DecodedPicture, decode_picture
 from tests.heif_data.encode import HEIGHT, QUADRANTS, WIDTH
 from tests.heif_files import (
     ALPHA,
-    DEPTH,
     EIGHT_BITS,
     TEN_BITS,
     Item,
     coded,
-    cropped,
     exif_item,
     full,
     grid_item,
@@ -94,11 +92,6 @@ def test_a_turn_that_only_exif_names_is_not_made():
     np.testing.assert_allclose(corners(picture), QUADRANTS, atol=3)
 
 
-def test_a_crop_keeps_the_middle():
-    picture = decode(heif(picture_item(PICTURE, cropped(80, 100), turned(1))))
-    assert picture.pixels.shape == (80, 100, 3)
-
-
 def test_tiles_are_put_together():
     tiles = (picture_item(PICTURE), picture_item(PICTURE))
     picture = decode(heif(grid_item(2, 1, 2 * WIDTH, HEIGHT, (2, 3)), *tiles))
@@ -120,10 +113,6 @@ def auxiliary(kind: bytes) -> bytes:
     """A file whose second picture belongs to the first."""
     second = picture_item(PICTURE, full(b"auxC", kind), refers=((b"auxl", (1,)),))
     return heif(picture_item(PICTURE), second)
-
-
-def test_a_depth_map_changes_nothing():
-    np.testing.assert_array_equal(decode(auxiliary(DEPTH)).pixels, decode(PLAIN).pixels)
 
 
 def test_transparency_is_laid_over_white_with_a_warning():

@@ -183,11 +183,6 @@ def test_an_impossible_height_is_refused(height_m: float):
     assert (caught.value.code, caught.value.field) == ("out-of-range", "height_m")
 
 
-@pytest.mark.parametrize("height_m", [None, 1.2, 2.3])
-def test_a_plausible_or_unknown_height_is_accepted(height_m: float | None):
-    check_height(height_m)
-
-
 @pytest.mark.parametrize(
     "light", [LightGuess(azimuth=float("nan")), LightGuess(distance=0.0), LightGuess(distance=-1.0)]
 )

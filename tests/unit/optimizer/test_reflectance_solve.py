@@ -1,4 +1,4 @@
-"""Reflectance recovered from intensities it made itself."""
+"""The reflectance of what is seen, and of what is hidden."""
 
 import itertools
 from dataclasses import replace
@@ -9,6 +9,7 @@ import trimesh
 
 from fitter.numerics.meshes import mesh_topology
 from fitter.numerics.surface_sample import elimination_order
+from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.reflectance_solve import (
     ReflectanceFields,
     ReflectanceProblem,
@@ -107,3 +108,42 @@ def test_ambient_light_never_exceeds_its_limit(scene):
     solver = solver_of(problem)
     found = solver.solve(replace(problem, ambient_limit=0.02), start, iterations=20)
     assert found.ambient <= 0.02
+
+
+EDGES = np.array([[k, k + 1] for k in range(5)])
+LENGTHS = np.array([1.0, 1.0, 2.0, 1.0, 1.0])
+
+
+def test_between_two_known_values_the_unknown_run_evenly_with_the_distance():
+    known = np.array([True, True, False, False, True, True])
+    values = np.array([0.2, 0.2, 9.0, 9.0, 0.6, 0.6])
+    found = HiddenVertices.of(known, EDGES, LENGTHS).filled(values)
+    np.testing.assert_allclose(found, [0.2, 0.2, 0.3, 0.5, 0.6, 0.6], atol=1e-5)
+
+
+def test_beyond_the_last_known_value_it_goes_on_unchanged():
+    known = np.array([True, True, True, False, False, False])
+    values = np.array([0.1, 0.4, 0.3, 9.0, 9.0, 9.0])
+    found = HiddenVertices.of(known, EDGES, LENGTHS).filled(values)
+    np.testing.assert_allclose(found[3:], 0.3, atol=1e-4)
+
+
+def test_what_touches_nothing_known_takes_the_mean():
+    known = np.array([True, True, False, False])
+    values = np.array([0.2, 0.4, 9.0, 9.0])
+    pairs = np.array([[0, 1], [2, 3]])
+    found = HiddenVertices.of(known, pairs, np.ones(2)).filled(values)
+    np.testing.assert_allclose(found[2:], 0.3)
+
+
+def test_what_is_known_stays_and_nothing_unknown_changes_nothing():
+    values = np.array([0.2, 0.4, 0.5, 0.1, 0.3, 0.6])
+    found = HiddenVertices.of(np.ones(6, dtype=bool), EDGES, LENGTHS).filled(values)
+    np.testing.assert_array_equal(found, values)
+
+
+def test_one_factorisation_serves_every_field():
+    known = np.array([True, True, False, False, True, True])
+    first = np.array([0.2, 0.2, 9.0, 9.0, 0.6, 0.6])
+    hidden = HiddenVertices.of(known, EDGES, LENGTHS)
+    np.testing.assert_allclose(hidden.filled(2.0 * first), 2.0 * hidden.filled(first))

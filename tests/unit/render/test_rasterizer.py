@@ -1,3 +1,6 @@
+"""The z-buffer: closed forms of spheres and planes, outlines, interpolation."""
+
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -5,7 +8,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fitter.render.camera import Camera
-from fitter.render.rasterizer import Rendering, render
+from fitter.render.contours import outline_loops
+from fitter.render.rasterizer import Rendering, render, shade_image
 from tests.unit.render.shapes import box, camera, sphere, together
 
 
@@ -181,3 +185,47 @@ def test_vertices_outside_the_picture_are_not_visible():
     outside = rendering.projected[:, 0] >= 320
     assert outside.any()
     assert not rendering.vertex_visible[outside].any()
+
+
+def ring() -> np.ndarray:
+    rows, columns = np.mgrid[:200, :240] + 0.5
+    radius = np.hypot(columns - 120.0, rows - 100.0)
+    return (radius < 80.0) & (radius > 30.0)
+
+
+def test_a_ring_has_an_outer_and_an_inner_loop_at_its_radii():
+    outer, inner = outline_loops(ring())
+    for loop, radius in ((outer, 80.0), (inner, 30.0)):
+        found = np.hypot(*(loop - [120.0, 100.0]).T)
+        assert np.abs(found - radius).max() < 1.5
+
+
+def test_filled_by_the_even_odd_rule_the_loops_are_the_silhouette():
+    silhouette = ring()
+    filled = np.zeros(silhouette.shape, dtype=np.uint8)
+    cv2.fillPoly(filled, [np.rint(x - 0.5).astype(np.int32) for x in outline_loops(silhouette)], 1)
+    wrong = (filled > 0) != silhouette
+    # At most the rim's own pixels, where straight pieces replace the staircase.
+    assert wrong.sum() < 0.05 * silhouette.sum()
+
+
+def test_specks_and_emptiness_have_no_outline():
+    empty = np.zeros((20, 20), dtype=bool)
+    assert outline_loops(empty) == ()
+    speck = empty.copy()
+    speck[4, 4] = True
+    assert outline_loops(speck) == ()
+
+
+def test_a_constant_fills_the_silhouette_and_the_background_stays():
+    rendering = render(*sphere(0.5, (0, 0, 2.5)), camera())
+    picture = shade_image(rendering, np.full(len(rendering.vertices), 0.7), background=-1.0)
+    np.testing.assert_allclose(picture[rendering.silhouette], 0.7, rtol=1e-6)
+    np.testing.assert_array_equal(picture[~rendering.silhouette], -1.0)
+
+
+def test_interpolated_depth_is_the_depth_buffer():
+    # z itself is linear on each triangle in space: a perspective-correct interpolation gives it.
+    rendering = render(*box((1.0, 0.6, 2.0), (0.6, 0.4, 2.5)), camera())
+    picture = shade_image(rendering, rendering.vertices[:, 2], background=np.inf)
+    np.testing.assert_allclose(picture, rendering.depth, rtol=1e-5)
