@@ -19,10 +19,6 @@ from tests.unit.observation.pictures import encode, noise
 CASE = "man_young_thin_standing"
 
 
-def picture() -> bytes:
-    return (PICTURES_FOLDER / f"{CASE}.jpg").read_bytes()
-
-
 def proposed(image: bytes, *, person: int | None = None, with_mask: bool = False) -> Proposal:
     return propose(
         image,
@@ -93,15 +89,6 @@ def test_of_several_people_the_largest_or_the_one_asked_for_is_proposed():
     with pytest.raises(InvalidInputError) as raised:
         proposed(image, person=2)
     assert (raised.value.field, raised.value.code) == ("person", "person-unknown")
-
-
-def test_a_person_at_the_border_and_a_small_one_are_told():
-    person = PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg")
-    width, height = person.size
-    assert "cut-off" in codes(proposed(encode(person.crop((0, 0, width, 2 * height // 3)))))
-    small = encode(person.resize((width // 4, height // 4)))
-    assert "picture-too-small" in codes(proposed(small))
-    assert codes(proposed(picture())) == []
 
 
 FRONT = {

@@ -175,14 +175,6 @@ def test_points_of_a_heic_are_those_of_the_jpeg():
     assert sorted(off)[len(off) // 2] < 4.0
 
 
-def test_a_heic_is_checked_with_the_lens_of_its_exif_block():
-    task = PointsRequest(view=ViewKind.FRONT, height_m=1.804)
-    found = points(task, sample_of_a_phone())
-    assert found.proposal.distance_m == pytest.approx(
-        checked_sample(view=ViewKind.FRONT, height_m=1.804).distance_m, rel=0.03
-    )
-
-
 def test_a_heic_is_written_as_a_jpeg_that_stands_upright():
     written = Image.open(io.BytesIO(jpeg(sample_of_a_phone())))
     assert (written.format, written.size) == ("JPEG", (720, 960))
@@ -202,15 +194,6 @@ def checked_sample(*, detector: Path | None = None, **said: object):
     request = PointsRequest.model_validate(said)
     found = points(request, load_sample().image, detector=detector)
     return found.proposal
-
-
-def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
-    found = checked_sample(view=ViewKind.FRONT, height_m=1.804)
-    assert (found.usable, found.findings, found.not_checked) == (True, (), ())
-    assert (found.seen_from, found.assumptions) == (SeenFrom.FRONT, ())
-    assert found.distance_m == pytest.approx(3.0, rel=0.05)
-    assert found.lean_deg == pytest.approx(0.0, abs=2.0)
-    assert found.persons[0] == pytest.approx((163, 41, 559, 895), abs=12)
 
 
 def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():
@@ -241,15 +224,6 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
     assert found.distance_m == pytest.approx(checked_sample().distance_m, rel=0.05)
     with pytest.raises(ProblemError, match="detector-not-installed"):
         checked_sample(detector=tmp_path)
-
-
-def test_points_say_who_is_to_be_checked_and_must_be_somebody_s():
-    elsewhere = {"nose": Point(x=30.0, y=30.0), "left_ankle": Point(x=60.0, y=900.0)}
-    found = checked_sample(points=elsewhere)
-    assert [each.code for each in found.findings] == ["nobody-found"]
-    with pytest.raises(UnusableInputError) as caught:
-        checked_sample(person=1)
-    assert (caught.value.error.field, caught.value.error.code) == ("person", "person-unknown")
 
 
 def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):
