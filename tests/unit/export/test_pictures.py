@@ -225,14 +225,12 @@ def test_rims_are_anti_aliased(ball):
     assert between.sum() > 200
 
 
-DRAWS = np.random.default_rng(5)
-
-
 def smooth_picture(height, width, channels):
     """Slopes, noise on a part of them, and a large even part."""
+    draws = np.random.default_rng(105)
     y, x, c = np.mgrid[:height, :width, :channels]
     picture = 40.0 + 0.3 * x + 0.2 * y + 9.0 * c
-    picture[: height // 2, : width // 2] += DRAWS.normal(
+    picture[: height // 2, : width // 2] += draws.normal(
         0.0, 4.0, (height // 2, width // 2, channels)
     )
     picture[height // 2 :, width // 2 :] = 255.0

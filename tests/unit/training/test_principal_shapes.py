@@ -14,13 +14,14 @@ MASSES = RNG.uniform(0.1, 1.0, 50)
 
 def population(deviations, subjects=400):
     """Bodies from a planted orthonormal basis in the metric of the vertices."""
-    raw = centred(RNG.normal(size=(len(deviations), 50, 3)), MASSES)
+    draws = np.random.default_rng(102)
+    raw = centred(draws.normal(size=(len(deviations), 50, 3)), MASSES)
     weights = np.sqrt(MASSES / MASSES.sum())[:, None]
     scaled, _ = np.linalg.qr((raw * weights).reshape(len(deviations), -1).T)
     axes = scaled.T.reshape(raw.shape) / weights
-    coefficients = RNG.normal(size=(subjects, len(deviations)))
+    coefficients = draws.normal(size=(subjects, len(deviations)))
     coefficients -= coefficients.mean(axis=0)
-    mean = centred(RNG.normal(size=(1, 50, 3)), MASSES)[0]
+    mean = centred(draws.normal(size=(1, 50, 3)), MASSES)[0]
     meshes = mean + np.tensordot(coefficients * deviations, axes, axes=1)
     return mean, meshes
 
@@ -48,17 +49,19 @@ def test_axes_are_orthogonal_in_the_metric_and_largest_first():
 
 
 def test_moving_the_bodies_about_changes_nothing():
+    draws = np.random.default_rng(3)
     _, meshes = population(np.array([3.0, 1.0]))
-    moved = meshes + RNG.normal(size=(len(meshes), 1, 3))
+    moved = meshes + draws.normal(size=(len(meshes), 1, 3))
     still, other = (principal_shapes(x, MASSES, 2) for x in (meshes, moved))
     np.testing.assert_allclose(other.mean, still.mean, atol=1e-12)
     np.testing.assert_allclose(np.abs(other.axes), np.abs(still.axes), atol=1e-9)
 
 
 def test_projection_finds_the_coefficients_of_a_body_wherever_it_stands():
+    draws = np.random.default_rng(3)
     _, meshes = population(np.array([3.0, 1.0, 0.3]))
     shapes = principal_shapes(meshes, MASSES, 3)
-    wanted = RNG.normal(size=(5, 3))
+    wanted = draws.normal(size=(5, 3))
     bodies = shapes.mean + np.tensordot(wanted, shapes.axes, axes=1) + 2.0
     found, residuals = project(bodies, MASSES, shapes.mean, shapes.axes)
     np.testing.assert_allclose(found, wanted, atol=1e-9)

@@ -145,7 +145,8 @@ def test_a_swing_has_no_part_along_the_twist_axis():
 
 
 def test_a_turn_about_the_axis_is_all_twist():
-    angles = RNG.uniform(-3.0, 3.0, 200)
+    draws = np.random.default_rng(6)
+    angles = draws.uniform(-3.0, 3.0, 200)
     swing, twist = swing_and_twist(angles[:, None] * AXES, AXES)
     np.testing.assert_allclose(twist, angles, atol=1e-9)
     np.testing.assert_allclose(swing, 0.0, atol=1e-7)

@@ -39,27 +39,31 @@ def axes_for(attribute):
 
 
 def test_a_linear_attribute_is_carried_by_its_gradient_alone():
-    gradient = RNG.normal(size=N)
+    draws = np.random.default_rng(12)
+    gradient = draws.normal(size=N)
     rotation = axes_for(linear_attribute(gradient)).rotation
     np.testing.assert_allclose(rotation[:, 0], gradient / np.linalg.norm(gradient), atol=1e-8)
     np.testing.assert_allclose(gradient @ rotation[:, 1:], 0.0, atol=1e-8)
 
 
 def test_no_other_axis_changes_a_linear_attribute_at_three_deviations():
-    attribute = linear_attribute(RNG.normal(size=N))
+    draws = np.random.default_rng(12)
+    attribute = linear_attribute(draws.normal(size=N))
     changes = attribute_changes(attribute, list(axes_for(attribute).rotation[:, 1:].T), 3.0)
     assert changes.max() < 1e-8
 
 
 @pytest.mark.parametrize("kind", [linear_attribute, curved_attribute])
 def test_both_ends_of_every_other_axis_have_the_same_attribute(kind):
-    attribute = kind(RNG.normal(size=N))
+    draws = np.random.default_rng(12)
+    attribute = kind(draws.normal(size=N))
     for axis in axes_for(attribute).rotation[:, 1:].T:
         assert abs(attribute(3.0 * axis) - attribute(-3.0 * axis)) < 1e-7
 
 
 def test_of_a_curved_attribute_only_the_even_part_is_left():
-    gradient, bend = RNG.normal(size=N), RNG.normal(size=(N, N)) * 0.02
+    draws = np.random.default_rng(12)
+    gradient, bend = draws.normal(size=N), draws.normal(size=(N, N)) * 0.02
 
     def attribute(shape):
         return float(gradient @ shape + shape @ bend @ shape)
@@ -71,12 +75,14 @@ def test_of_a_curved_attribute_only_the_even_part_is_left():
 
 @pytest.mark.parametrize("kind", [linear_attribute, curved_attribute])
 def test_the_basis_stays_orthonormal(kind):
-    rotation = axes_for(kind(RNG.normal(size=N))).rotation
+    draws = np.random.default_rng(12)
+    rotation = axes_for(kind(draws.normal(size=N))).rotation
     np.testing.assert_allclose(rotation.T @ rotation, np.eye(N), atol=1e-12)
 
 
 def test_the_first_axes_span_what_they_spanned_before_absent_the_attributes_axis():
-    gradient = RNG.normal(size=N)
+    draws = np.random.default_rng(12)
+    gradient = draws.normal(size=N)
     found = axes_for(linear_attribute(gradient))
     k = found.candidate
     kept = [j for j in range(N) if j != k]
@@ -99,7 +105,8 @@ def test_more_of_the_first_axis_is_more_of_the_attribute():
 
 
 def test_the_other_axes_come_largest_first():
-    rotation = axes_for(linear_attribute(RNG.normal(size=N))).rotation
+    draws = np.random.default_rng(12)
+    rotation = axes_for(linear_attribute(draws.normal(size=N))).rotation
     sizes = np.linalg.norm(SIZES[:, None] * rotation[:, 1:], axis=0)
     assert (np.diff(sizes) <= 0).all()
 
