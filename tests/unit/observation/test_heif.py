@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from fitter.errors import InvalidInputError
-from fitter.observation.decoding import DecodedPicture, decode_picture
+from fitter.observation.decoding import DecodedPicture, decode_coverage, decode_picture
 from tests.heif_data.encode import HEIGHT, QUADRANTS, WIDTH
 from tests.heif_files import (
     ALPHA,
