@@ -5,10 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from fitter.render.rasterizer import Rendering, render
+from fitter.render.rasterizer import Rendering
 from fitter.vocabulary.points import FACE_POINT_NAMES, LIMB_POINT_NAMES
 from tests.accuracy.landmark_points import landmarks_on
-from tests.accuracy.people import INNER_POINT_BONES, rig_of_people
+from tests.accuracy.people import INNER_POINT_BONES
 from tests.accuracy.staging import Staged
 
 CLICK_DEVIATION_PX = 2.5
@@ -35,11 +35,6 @@ def true_points(staged: Staged) -> Points:
         side, joint = name.split("_")
         world[name] = staged.bones[f"{INNER_POINT_BONES[joint]}.{side[0].upper()}"]
     return {name: staged.in_camera(point) for name, point in world.items()}
-
-
-def rendering(staged: Staged) -> Rendering:
-    """The true body, without hair and clothes, in the case's camera."""
-    return render(staged.in_camera(staged.body), rig_of_people().surface.triangles, staged.camera)
 
 
 def noisy_clicks(

@@ -13,9 +13,9 @@ from PIL import Image as PillowImage
 from fitter.arrays import Mask
 from fitter.parameters import Light
 from fitter.vocabulary.choices import LightKind
-from tests.accuracy.clicks import hidden_points, noisy_clicks, rendering
+from tests.accuracy.clicks import hidden_points, noisy_clicks
 from tests.accuracy.scene import PAIRED_SERIES, Case, FocalLength, Label
-from tests.accuracy.staging import Staged, root_joint
+from tests.accuracy.staging import Staged, rendering, root_joint
 from tests.accuracy.truth import true_body, true_joints, true_light
 
 PICTURES_FOLDER = Path(__file__).parent / "data" / "pictures"

@@ -20,7 +20,7 @@ from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.remarks import Severity
 from tests.accuracy.cases import CASES
-from tests.accuracy.clicks import noisy_clicks, rendering
+from tests.accuracy.clicks import noisy_clicks
 from tests.accuracy.occluders import (
     Occlude,
     Scene,
@@ -33,12 +33,11 @@ from tests.accuracy.occluders import (
 )
 from tests.accuracy.people import load_person
 from tests.accuracy.people_table import PEOPLE
-from tests.accuracy.plain_rendering import plain_picture
 from tests.accuracy.runs import picture_of
 from tests.accuracy.scene import Leg
 from tests.accuracy.scoring import errors_of, standard_errors_of
 from tests.accuracy.spoiling import Picture, blurred, cropped, exposed
-from tests.accuracy.staging import camera_of, stage
+from tests.accuracy.staging import camera_of, plain_picture, rendering, stage
 from tests.accuracy.table import MEASUREMENTS, error_heading, error_line
 from tests.accuracy.true_picture import VISIBLE, TruePicture
 from tests.one_picture import changed

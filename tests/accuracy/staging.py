@@ -3,24 +3,37 @@
 World: metres, y up, the person at the origin on the floor y = 0, the camera at positive z.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, UInt8
 
 from fitter.arrays import Pose, Vertices
+from fitter.observation.pixels import display_from_linear
 from fitter.render.camera import Camera, focal_length_px_from_35mm
+from fitter.render.rasterizer import Rendering, render
 from tests.accuracy.makehuman_faces import faces_of_group
 from tests.accuracy.people import (
     Person,
+    load_person,
     posed_body,
     posed_bones,
     posed_skin,
     posed_with_bone,
     rig_of_people,
 )
+from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.scene import Case, Lamp, View
 from tests.accuracy.stances import lowest, standing_on_both_feet
+
+TO_LIGHT = np.array([-0.5, -0.6, -0.6]) / np.linalg.norm([-0.5, -0.6, -0.6])
+AMBIENT, DIFFUSE = 0.2, 0.7
+SKIN, CLOTH, WALL = (0.5, 0.3, 0.22), (0.1, 0.12, 0.3), 0.25
+CLOTHED = (0.44, 0.54)
+"""Between these shares of the height above the floor people wear shorts."""
+
+_SOFTNESS_PX, _NOISE = 0.6, 0.003
 
 FOOT_HEIGHT_AT_REST_M = 0.1
 """Vertices this low at rest form the feet."""
@@ -146,3 +159,30 @@ def _look(view: View) -> tuple[Float[np.ndarray, "3 3"], Float[np.ndarray, "3"]]
     right = np.cross(forward, np.array([0.0, 1.0, 0.0]))
     right /= np.linalg.norm(right)
     return np.stack([right, np.cross(forward, right), forward]), eye
+
+
+def rendering(staged: Staged) -> Rendering:
+    """The true body, without hair and clothes, in the case's camera."""
+    return render(staged.in_camera(staged.body), rig_of_people().surface.triangles, staged.camera)
+
+
+def plain_picture(case: Case, *, turned_deg: float) -> UInt8[np.ndarray, "h w 3"]:
+    """A case's person by our own rasteriser, without hair and clothes but colour; sRGB.
+
+    They are turned about the upright axis from how they stand there.
+    """
+    stance = replace(case.stance, facing=case.stance.facing + turned_deg)
+    staged = stage(load_person(PEOPLE[case.person]), replace(case, stance=stance))
+    faces, triangles = rendering(staged).face_ids, rig_of_people().surface.triangles
+    corners = staged.in_camera(staged.body)[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    heights = staged.body[triangles].mean(axis=1)[:, 1] - staged.body[:, 1].min()
+    shares = heights / np.ptp(staged.body[:, 1])
+    clothed = (shares > CLOTHED[0]) & (shares < CLOTHED[1])
+    light = AMBIENT + DIFFUSE * np.clip(normals @ TO_LIGHT, 0.0, 1.0)
+    colours = np.where(clothed[:, None], CLOTH, SKIN) * light[:, None]
+    shown = np.where((faces >= 0)[..., None], colours[faces], WALL)
+    noise = np.random.default_rng(case.seed).normal(0.0, _NOISE, shown.shape)
+    soft = cv2.GaussianBlur(shown, (0, 0), _SOFTNESS_PX) + noise
+    return np.rint(255.0 * display_from_linear(np.clip(soft, 0.0, 1.0))).astype(np.uint8)

@@ -24,7 +24,6 @@ from fitter.observation.picture_files import ExifTags
 from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.remarks import Code
 from tests.accuracy.cases import CASES
-from tests.accuracy.plain_rendering import plain_picture
 from tests.accuracy.runs import picture_of
 from tests.accuracy.spoiling import (
     Picture,
@@ -36,7 +35,7 @@ from tests.accuracy.spoiling import (
     reduced,
     rolled,
 )
-from tests.accuracy.staging import camera_of
+from tests.accuracy.staging import camera_of, plain_picture
 
 FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 SHEET, TILES = "measuring.jpg", "measuring_tiles.jpg"

@@ -10,8 +10,8 @@ from fitter.vocabulary.outcomes import Outcome, Verdict
 from fitter.vocabulary.remarks import Code, Severity
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import read_case
-from tests.accuracy.nonsense import DONORS, nonsense
 from tests.accuracy.true_picture import fit_request
+from tests.integration.nonsense import DONORS, nonsense
 from tests.one_picture import changed
 from tests.shared_data import SHARED_DATA, needs_shared
 

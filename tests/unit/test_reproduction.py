@@ -24,7 +24,7 @@ from tests.accuracy.cases import CASES
 from tests.accuracy.files import PICTURES_FOLDER, read_case
 from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.scene import Half
-from tests.accuracy.subject import PERSON, write_subject
+from tests.illustrations.subject import PERSON, write_subject
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=200.0, centre_y=260.0, width=400, height=520)
 

@@ -7,9 +7,9 @@ import pytest
 from playwright.sync_api import expect
 
 from fitter.vocabulary.choices import Cues
-from tests.accuracy.nonsense import nonsense
 from tests.e2e.page.visitor import FIT_WITHIN_MS, Visitor
 from tests.e2e.service import ended_job
+from tests.integration.nonsense import nonsense
 
 
 @pytest.fixture(scope="module")

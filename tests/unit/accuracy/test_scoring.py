@@ -16,7 +16,7 @@ from fitter.vocabulary.choices import Clothing, Gender, LightKind
 from tests.accuracy.files import photograph, read_labels, write_labels
 from tests.accuracy.foreign import FOLDER, TRUE_NAMES, foreign_half, foreign_names, foreign_picture
 from tests.accuracy.joints import joint_error_mm, part_of_joint, wrong_limbs
-from tests.accuracy.scene import Half, Label, Series
+from tests.accuracy.scene import Half, Series
 from tests.accuracy.scoring import light_error, overlap, resampled
 from tests.accuracy.seen_labels import CLASSES, label_overlaps
 from tests.accuracy.true_picture import Told, TruePicture, told_request
@@ -69,11 +69,7 @@ def test_joints_err_among_themselves_wherever_the_body_stands():
 def test_a_mirrored_depth_turns_slanting_limbs_the_wrong_way():
     there, back = with_forearm_slanting(25.0), with_forearm_slanting(-25.0)
     assert wrong_limbs(there, back) == ("left_forearm",)
-
-
-def test_a_limb_along_the_picture_may_slant_a_little_either_way():
     assert wrong_limbs(with_forearm_slanting(8.0), with_forearm_slanting(-8.0)) == ()
-    assert wrong_limbs(with_forearm_slanting(40.0), with_forearm_slanting(10.0)) == ()
 
 
 def test_a_mask_at_half_size_covers_the_same_share_at_full_size():
@@ -94,11 +90,8 @@ def test_lights_err_by_the_angle_between_them():
     assert light_error(ahead, None) is None
 
 
-def test_the_index_of_body_mass_is_of_the_true_body():
-    assert PICTURE.truth.bmi == 25.0
-
-
 def test_a_fit_is_told_the_truth_and_nothing_else():
+    assert PICTURE.truth.bmi == 25.0
     assert asdict(told_request(PICTURE, Told())) == asdict(PICTURE.request)
     asked = told_request(PICTURE, Told(focal_length=True, measurements=("weight",)))
     (view,) = asked.views
@@ -133,7 +126,6 @@ def test_labels_are_read_as_they_were_written(tmp_path):
     written = np.arange(6, dtype=np.uint8).reshape(2, 3)
     write_labels(tmp_path / "labels.png", written)
     np.testing.assert_array_equal(read_labels(tmp_path / "labels.png"), written)
-    assert set(written.ravel()) == set(Label)
 
 
 def test_noise_and_compression_leave_mean_light_as_it_was():

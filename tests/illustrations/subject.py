@@ -1,4 +1,4 @@
-"""``python -m tests.accuracy.subject``: the subject of the paper's Fig. 8, from the suite's data.
+"""``python -m tests.illustrations.subject``: the subject of the paper's Fig. 8, of the suite.
 
 Somebody of the reporting half who is neither young nor old, thin nor heavy, chosen before any fit,
 in the suite's three poses.
