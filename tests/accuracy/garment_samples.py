@@ -8,8 +8,8 @@ from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import Normals, Vertices
 from tests.accuracy.landmark_points import packaged_model, rest_landmarks
+from tests.accuracy.meshes import vertex_normals
 from tests.accuracy.people import rig_of_people
-from tests.accuracy.refinement import vertex_normals
 from tests.accuracy.staging import Staged
 
 ARM_PARTS = ("upper_arm", "forearm", "hand")

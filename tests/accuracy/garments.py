@@ -22,8 +22,8 @@ from tests.accuracy.garment_fields import (
 )
 from tests.accuracy.garment_samples import ARM_PARTS, LEG_PARTS, SkinSamples, skin_samples
 from tests.accuracy.landmark_points import rest_landmarks
+from tests.accuracy.meshes import PersonMesh
 from tests.accuracy.noise import smooth_step
-from tests.accuracy.person_mesh import PersonMesh
 from tests.accuracy.scene import Bottom, Cloth, Label, Shoes, Top
 from tests.accuracy.staging import Staged
 

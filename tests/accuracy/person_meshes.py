@@ -8,10 +8,16 @@ from jaxtyping import Float
 from fitter.arrays import Vertices
 from tests.accuracy.landmark_points import rest_landmarks
 from tests.accuracy.looks import HAIR_ROUGHNESS, Canvas, paint
-from tests.accuracy.makehuman_faces import faces_of_group, texture_coordinates
+from tests.accuracy.meshes import (
+    PersonMesh,
+    Refined,
+    faces_of_group,
+    refined,
+    texture_coordinates,
+    triangulated,
+    vertex_normals,
+)
 from tests.accuracy.people import rig_of_people
-from tests.accuracy.person_mesh import PersonMesh
-from tests.accuracy.refinement import Refined, refined, triangulated, vertex_normals
 from tests.accuracy.scene import Hair, Label
 from tests.accuracy.staging import Staged, body_group_ids
 

@@ -21,22 +21,25 @@ from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.remarks import Severity
 from tests.accuracy.cases import CASES
 from tests.accuracy.clicks import noisy_clicks
-from tests.accuracy.occluders import (
-    Occlude,
-    Scene,
-    arm_across_the_waist,
-    bag_beside_the_trunk,
-    box_before_the_hips,
-    neighbour_behind,
-    neighbour_in_front,
-    table_before_the_legs,
-)
 from tests.accuracy.people import load_person
 from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.runs import picture_of
 from tests.accuracy.scene import Leg
 from tests.accuracy.scoring import errors_of, standard_errors_of
-from tests.accuracy.spoiling import Picture, blurred, cropped, exposed
+from tests.accuracy.spoiling import (
+    Occlude,
+    Picture,
+    Scene,
+    arm_across_the_waist,
+    bag_beside_the_trunk,
+    blurred,
+    box_before_the_hips,
+    cropped,
+    exposed,
+    neighbour_behind,
+    neighbour_in_front,
+    table_before_the_legs,
+)
 from tests.accuracy.staging import camera_of, plain_picture, rendering, stage
 from tests.accuracy.table import MEASUREMENTS, error_heading, error_line
 from tests.accuracy.true_picture import VISIBLE, TruePicture

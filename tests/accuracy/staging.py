@@ -13,7 +13,7 @@ from fitter.arrays import Pose, Vertices
 from fitter.observation.pixels import display_from_linear
 from fitter.render.camera import Camera, focal_length_px_from_35mm
 from fitter.render.rasterizer import Rendering, render
-from tests.accuracy.makehuman_faces import faces_of_group
+from tests.accuracy.meshes import faces_of_group
 from tests.accuracy.people import (
     Person,
     load_person,

@@ -1,10 +1,66 @@
-"""Split the quads of a mesh evenly, so that colours and small reliefs have vertices to sit on."""
+"""Meshes that are drawn: MakeHuman's faces by group, quads split so that colours have vertices."""
 
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
+
+from fitter.arrays import Normals, PerVertex, Triangles, Vertices
+from fitter.training.makehuman.meshes import makehuman_folder
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PersonMesh:
+    """A part of the person; vertices in the world, metres, albedo linear.
+
+    ``labels`` (k,) is the :class:`Label` of each vertex.
+    """
+
+    vertices: Vertices
+    normals: Normals
+    triangles: Triangles
+    albedo: Float[np.ndarray, "k 3"]
+    roughness: PerVertex
+    labels: Integer[np.ndarray, " k"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Faces:
+    """Quads of one group over the source vertices, and over the texture coordinates."""
+
+    quads: Integer[np.ndarray, "q 4"]
+    uv_quads: Integer[np.ndarray, "q 4"]
+
+
+@cache
+def faces_of_group(group: str) -> Faces:
+    """The faces of ``body``, ``helper-l-eye`` and so on."""
+    quads: list[list[int]] = []
+    uv_quads: list[list[int]] = []
+    current = ""
+    for line in _base_file().read_text().splitlines():
+        kind, *fields = line.split() or ("",)
+        if kind == "g":
+            current = fields[0]
+        elif kind == "f" and current == group:
+            corners = [[int(number) - 1 for number in field.split("/")[:2]] for field in fields]
+            quads.append([corner[0] for corner in corners])
+            uv_quads.append([corner[1] for corner in corners])
+    return Faces(quads=np.array(quads), uv_quads=np.array(uv_quads))
+
+
+@cache
+def texture_coordinates() -> Float[np.ndarray, "u 2"]:
+    """All texture coordinates of the base mesh, v upward."""
+    lines = _base_file().read_text().splitlines()
+    return np.array([line.split()[1:3] for line in lines if line.startswith("vt ")], dtype=float)
+
+
+def _base_file() -> Path:
+    return makehuman_folder() / "3dobjs" / "base.obj"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
