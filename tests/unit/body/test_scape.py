@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from fitter.body.model import global_rotations
+from fitter.body.model import global_rotations, posed_joints
 from fitter.body.scape import CAMERA_AXES, ScapeEvaluator, increment
 from fitter.body.shape_space import height_of_shape, rest_vertices, shape_for_height
 from fitter.numerics.meshes import gradient_operator
@@ -134,3 +134,13 @@ def test_a_stature_asked_for_is_a_stature_got(evaluator):
     shape = shape_for_height(evaluator, 1.37)
     assert height_of_shape(evaluator, shape) == pytest.approx(1.37, abs=1e-6)
     assert shape[1] == 0.0
+
+
+def test_a_bone_is_turned_by_its_parents_rotation():
+    """A quarter turn about z takes x to y."""
+    rest = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
+    turns = rotation_matrices(np.array([[0.0, 0.0, 0.0], [0.0, 0.0, np.pi / 2.0], [0.4, 0.2, 0.1]]))
+    posed = posed_joints(rest, turns, np.array([-1, 0, 1]))
+    np.testing.assert_allclose(
+        posed, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]], atol=1e-12
+    )

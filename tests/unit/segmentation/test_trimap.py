@@ -33,6 +33,14 @@ def test_a_discs_band_lies_between_two_discs():
     assert (background <= ~disc(79)).all()
 
 
+def test_the_band_of_a_box_is_as_many_pixels_wide_as_it_is_told_on_either_side():
+    silhouette = np.zeros((100, 100), dtype=np.bool_)
+    silhouette[20:80, 30:70] = True
+    across = trimap(silhouette, NO_BONES, band=5)[50]
+    assert np.flatnonzero(across == TrimapLabel.FOREGROUND)[[0, -1]].tolist() == [35, 64]
+    assert np.flatnonzero(across != TrimapLabel.BACKGROUND)[[0, -1]].tolist() == [25, 74]
+
+
 def test_the_band_leans_to_the_foreground_well_inside_only():
     labels = trimap(disc(60), NO_BONES, band=20)
     likely = labels == TrimapLabel.LIKELY_FOREGROUND
