@@ -4,6 +4,7 @@ import asyncio
 import json
 import logging
 from collections.abc import AsyncIterator, Awaitable, Callable
+from types import SimpleNamespace
 from typing import Any
 from unittest.mock import create_autospec
 
@@ -12,10 +13,12 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse, StreamingResponse
 from starlette.types import Message, Receive, Scope, Send
 
+from service.api.auth import Authentication
 from service.api.limits import BodyLimits, RateLimit, RequestLimit
 from service.api.observation import HeadAsGet, Observation, ServiceMetrics
 from service.api.problems import ProblemError
 from service.jobs.engine import JobEngine
+from service.jobs.keys import ApiKey, hash_key
 from service.process.data_folder import Disk
 
 LIMIT_S = 0.2
@@ -233,6 +236,31 @@ def test_a_bucket_does_not_overflow():
 def test_keys_do_not_share_a_bucket():
     limit = RateLimit(per_minute=1, monotonic=Clock())
     assert [limit.take(KEY), limit.take("other"), limit.take(KEY)] == [0, 0, 60]
+
+
+def api_key(name: str, *, revoked_at: float | None = None) -> ApiKey:
+    return ApiKey(
+        id=name, tenant="a", secret_hash=hash_key(name), created_at=0.0, revoked_at=revoked_at
+    )
+
+
+def test_each_key_has_requests_of_its_own_and_a_revoked_one_has_none():
+    keys: Any = SimpleNamespace(all_keys=lambda: [*map(api_key, ("one", "two")), old])
+    old = api_key("old", revoked_at=1.0)
+    guarded = Authentication(reads_all, keys=keys, rate_limit=RateLimit(per_minute=1))
+    sent: list[Message] = []
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    def asked(key: str) -> int:
+        headers = [(b"authorization", f"Bearer {key}".encode())]
+        scope = {"type": "http", "method": "GET", "path": "/v1/fits", "query_string": b""}
+        sent.clear()
+        asyncio.run(guarded(scope | {"headers": headers}, last, send))
+        return sent[0]["status"]
+
+    assert [asked(key) for key in ("one", "two", "one", "old", "none")] == [200, 200, 429, 401, 401]
 
 
 @pytest.mark.parametrize(
