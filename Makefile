@@ -63,7 +63,7 @@ examples: $(STAMP)
 	$(VENV)/bin/python -m tests.contract.recording
 
 openapi: $(STAMP)
-	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
+	$(VENV)/bin/python -m tests.contract.document
 	$(VENV)/bin/python -m tests.contract.request_table
 
 # The documentation site, into service/docs_site, from where the service shows it. Its notebooks run;

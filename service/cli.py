@@ -21,7 +21,6 @@ COMMANDS: Final = {
     "validate": "say how far fits are off on people who were measured with a tape",
     "paper": "draw the paper's figures and its table from fits made here and now",
     "demo": "start a service, fit the sample picture, show it all",
-    "openapi": "print the OpenAPI document",
 }
 """Each is a module of its name with ``add_arguments`` and ``run``, which gives the exit status."""
 

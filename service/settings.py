@@ -337,14 +337,9 @@ class Settings(BaseSettings):
         return dead_after_s
 
     @property
-    def is_database_embedded(self) -> bool:
-        """Whether the database is a file in the data folder."""
-        return self.database_url is None
-
-    @property
     def uses_data_folder(self) -> bool:
         """Whether anything is kept in the data folder."""
-        return self.is_database_embedded or self.blob_url is None
+        return self.database_url is None or self.blob_url is None
 
     @property
     def database_file(self) -> Path:

@@ -104,15 +104,15 @@ def create_app(
     blobs: BlobStore,
     disk: Disk,
     ask: Ask,
-    read_header: ReadHeader,
+    read_header_for: Callable[[str], ReadHeader],
     keys: KeyRing,
     draining: threading.Event,
 ) -> FastAPI:
     """Build the application from what outlives it: engine, blobs, disk, keys and so on.
 
-    ``ask`` has questions answered by estimators, ``read_header`` headers of pictures read.
-    ``draining`` is set once the process is told to stop: it is then no longer ready, and event
-    streams end.
+    ``ask`` has questions answered by estimators, ``read_header_for`` headers of an owner's pictures
+    read. ``draining`` is set once the process is told to stop: it is then no longer ready, and
+    event streams end.
     """
     feed = EventFeed(engine, draining)
 
@@ -132,11 +132,11 @@ def create_app(
         engine=engine,
         blobs=watched,
         disk=disk,
-        estimators=Estimators(ask, metrics, estimators=settings.estimator_processes),
+        estimators=Estimators(ask, estimators=settings.estimator_processes),
         feed=feed,
         metrics=metrics,
         draining=draining,
-        read_header=read_header,
+        read_header_for=read_header_for,
     )
     app.state.readiness = Readiness(health.checks(engine, watched, disk))
     _surround(app, settings=settings, keys=keys, metrics=metrics)

@@ -1,6 +1,7 @@
 """The parts that all resources share, and the tenant of one request."""
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Annotated
 
@@ -29,16 +30,17 @@ class Parts:
     feed: EventFeed
     metrics: ServiceMetrics
     draining: threading.Event
-    read_header: ReadHeader
+    read_header_for: Callable[[str], ReadHeader]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext(Parts):
-    """The parts, and for one request its tenant's ``jobs`` and ``images``."""
+    """The parts, and for one request those of its tenant."""
 
     tenant: str
     jobs: TenantJobs
     images: TenantImages
+    read_header: ReadHeader
     request_id: str | None
 
 
@@ -47,10 +49,12 @@ def _context(request: Request) -> ApiContext:
     tenant: str = request.state.tenant
     engine = parts.engine
     return ApiContext(
-        **{each.name: getattr(parts, each.name) for each in fields(Parts)},
+        **{each.name: getattr(parts, each.name) for each in fields(Parts)}
+        | {"estimators": parts.estimators.of(tenant)},
         tenant=tenant,
         jobs=engine.of(tenant),
         images=engine.images_of(tenant),
+        read_header=parts.read_header_for(tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

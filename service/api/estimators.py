@@ -1,7 +1,6 @@
 """The resources' access to the estimators: in separate threads, with troubles as problems."""
 
-import time
-from collections.abc import Mapping
+from copy import copy
 from functools import partial
 from typing import Final
 
@@ -9,7 +8,6 @@ from anyio import CapacityLimiter, to_thread
 from pydantic import BaseModel
 
 from api_schemas.problems import Problem
-from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
 from service.compute import questions
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
@@ -18,7 +16,6 @@ from service.compute.questions import FILE, QUESTION, ConversionTask
 from service.compute.tasks import Parts
 from service.process.logs import current_log_context
 from service.submissions.refusal import RefusedError
-from service.submissions.submission import DETECTOR_MISSING
 
 SPARE_THREADS: Final = 4
 """Threads beyond what the estimators take at a time: there, one too many is refused at once."""
@@ -28,14 +25,6 @@ SOON_S: Final = 2
 
 UNUSABLE: Final = 422
 
-OUTCOMES: Final[Mapping[str, str]] = {
-    UNAVAILABLE.code: "unavailable",
-    DETECTOR_MISSING: "unavailable",
-    TIMED_OUT.code: "timed_out",
-    FAILED.code: "failed",
-}
-"""Labels of metrics for problems of estimators; any other problem means a refused question."""
-
 
 class Estimators:
     """Questions to so many estimators.
@@ -44,10 +33,16 @@ class Estimators:
     is not held up.
     """
 
-    def __init__(self, ask: Ask, metrics: ServiceMetrics, *, estimators: int) -> None:
+    def __init__(self, ask: Ask, *, estimators: int) -> None:
         self._ask = ask
-        self._metrics = metrics
         self._threads = CapacityLimiter(capacity(estimators) + SPARE_THREADS)
+        self._owner = ""
+
+    def of(self, owner: str) -> "Estimators":
+        """The same estimators, for the questions of an owner, who has turns of its own."""
+        theirs = copy(self)
+        theirs._owner = owner  # noqa: SLF001
+        return theirs
 
     async def answer(
         self,
@@ -69,28 +64,18 @@ class Estimators:
         parts = {QUESTION: asked, FILE: file}
         task = TaskMessage(
             task=name,
+            owner=self._owner,
             parts=tuple(parts),
             log_context=dict(current_log_context()),
         )
-        started = time.monotonic()
-        outcome = "failed"
-        try:
-            received = await to_thread.run_sync(
-                partial(self._ask, task, parts), limiter=self._threads
-            )
-            match received.message:
-                case DoneMessage():
-                    outcome = "answered"
-                    return received.parts
-                case ProblemMessage(problem=reason):
-                    outcome = OUTCOMES.get(reason.code, "refused")
-                    raise _raised(reason)
-                case _:
-                    raise ProblemError(FAILED)
-        finally:
-            self._metrics.count_estimate(
-                question=name, outcome=outcome, seconds=time.monotonic() - started
-            )
+        received = await to_thread.run_sync(partial(self._ask, task, parts), limiter=self._threads)
+        match received.message:
+            case DoneMessage():
+                return received.parts
+            case ProblemMessage(problem=reason):
+                raise _raised(reason)
+            case _:
+                raise ProblemError(FAILED)
 
     async def convert(self, glb: bytes, ending: str) -> bytes:
         """Write the body of a GLB file in the format of an ending; raises as :meth:`answer`."""

@@ -4,7 +4,7 @@ Every GLB is also there in other mesh formats, every picture that was sent as a 
 measurements as a table; they are never stored, and have the same bytes each time.
 """
 
-from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Annotated, Any, Final
@@ -17,6 +17,7 @@ from api_schemas.problems import shortened
 from service.api.context import ApiContext
 from service.api.problems import ProblemError, documented, problem_error
 from service.api.requests import JSON
+from service.api.storage import stored_content
 from service.jobs.inputs import IMAGE, RESULT
 from service.jobs.records import StoredBlob
 from service.version import VERSION
@@ -109,14 +110,6 @@ def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, 
     )
 
 
-def answer_document(content: bytes, tag: str, if_none_match: str | None) -> Response:
-    """Answer with a JSON document, unless the client has it already."""
-    headers = {"ETag": f'"{tag}"'}
-    if is_known(tag, if_none_match):
-        return Response(status_code=304, headers=headers)
-    return Response(content, media_type=JSON, headers=headers)
-
-
 def is_known(tag: str, if_none_match: str | None) -> bool:
     """Return true if the client already has these bytes."""
     return if_none_match is not None and (f'"{tag}"' in if_none_match or if_none_match == "*")
@@ -136,6 +129,11 @@ class Rendition:
     source: StoredBlob
     mesh_format: str | None = None
     by_accept: bool = False
+
+
+def as_stored(file: StoredBlob) -> Rendition:
+    """A file as it is stored."""
+    return Rendition(media_type=file.media_type, tag=file.digest, source=file)
 
 
 def chosen_rendition(
@@ -171,7 +169,7 @@ def renditions(files: Mapping[str, StoredBlob]) -> Iterator[tuple[str, Rendition
     """All files that can be requested by their names, each followed by its other formats."""
     written = MESH_FORMATS if TEXTURE_FILES.isdisjoint(files) else {**MESH_FORMATS, **MATERIAL}
     for name, file in files.items():
-        yield name, Rendition(media_type=file.media_type, tag=file.digest, source=file)
+        yield name, as_stored(file)
         if name.endswith(GLB_ENDING):
             for ending, media_type in written.items():
                 yield (
@@ -199,12 +197,9 @@ def _unknown(name: str, files: Mapping[str, StoredBlob], state: JobState) -> Pro
 
 
 async def answer_file(
-    context: ApiContext,
-    rendition: Rendition,
-    read: Callable[[StoredBlob], Awaitable[bytes]],
-    wanted: Wanted,
+    context: ApiContext, scope: str, rendition: Rendition, wanted: Wanted
 ) -> Response:
-    """Answer with a file; ``read`` reads what is stored."""
+    """Answer with a file of a scope, unless the client has it already."""
     headers = {"ETag": f'"{rendition.tag}"'}
     if rendition.by_accept:
         headers["Vary"] = "Accept"
@@ -212,7 +207,7 @@ async def answer_file(
         headers["Content-Security-Policy"] = STAND_ALONE
     if is_known(rendition.tag, wanted.if_none_match):
         return Response(status_code=304, headers=headers)
-    stored = await read(rendition.source)
+    stored = await stored_content(context.blobs, scope, rendition.source)
     content = await _converted(context, stored, rendition)
     return Response(content, media_type=rendition.media_type, headers=headers)
 

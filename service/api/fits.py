@@ -2,7 +2,6 @@
 
 from collections.abc import AsyncIterator
 from datetime import UTC, datetime
-from functools import partial
 from typing import Annotated, Final
 from uuid import UUID
 
@@ -21,17 +20,16 @@ from service.api.files import (
     NOT_MODIFIED,
     PICTURES,
     FileName,
-    IfNoneMatch,
     Wanted,
-    answer_document,
     answer_file,
+    as_stored,
     chosen_rendition,
     file_answers,
 )
 from service.api.listing import Cursor, Limit, page_of, read_cursor
 from service.api.problems import ProblemError, documented, not_found
 from service.api.requests import JSON, json_content
-from service.api.storage import erase_blobs, stored_content, writing
+from service.api.storage import erase_blobs, writing
 from service.jobs.engine import TenantJobs
 from service.jobs.inputs import RESULT
 from service.jobs.records import ACTIVE, TERMINAL, JobRecord
@@ -179,12 +177,9 @@ async def erase_fit(fit_id: UUID, context: Context) -> Response:
     | NOT_MODIFIED
     | documented(*FIT_PROBLEMS),
 )
-async def get_fit_request(
-    record: Found, context: Context, if_none_match: IfNoneMatch = None
-) -> Response:
+async def get_fit_request(record: Found, context: Context, wanted: Wanted) -> Response:
     """Return what was asked for, with names for all points: to be changed and sent again."""
-    content = await stored_content(context.blobs, record.id, record.options)
-    return answer_document(content, record.options.digest, if_none_match)
+    return await answer_file(context, record.id, as_stored(record.options), wanted)
 
 
 @ROUTER.get(
@@ -192,17 +187,12 @@ async def get_fit_request(
     summary="The result document of a fit",
     responses={200: {"model": FitResult}} | NOT_MODIFIED | documented("no-result", *FIT_PROBLEMS),
 )
-async def get_fit_result(
-    record: Found,
-    context: Context,
-    if_none_match: IfNoneMatch = None,
-) -> Response:
+async def get_fit_result(record: Found, context: Context, wanted: Wanted) -> Response:
     """Return measurements, cameras, pose, shape, light, what was assumed, and the files' names."""
     document = record.files.get(RESULT)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    content = await stored_content(context.blobs, record.id, document)
-    return answer_document(content, document.digest, if_none_match)
+    return await answer_file(context, record.id, as_stored(document), wanted)
 
 
 @ROUTER.get(
@@ -216,9 +206,7 @@ async def get_fit_result(
 async def get_fit_file(record: Found, name: FileName, context: Context, wanted: Wanted) -> Response:
     """Return a file."""
     rendition = chosen_rendition(record.files, name, state=record.state, accept=wanted.accept)
-    return await answer_file(
-        context, rendition, partial(stored_content, context.blobs, record.id), wanted
-    )
+    return await answer_file(context, record.id, rendition, wanted)
 
 
 def no_result(record: JobRecord) -> Problem:

@@ -3,7 +3,6 @@
 import contextlib
 import hashlib
 from datetime import UTC, datetime
-from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
@@ -27,7 +26,6 @@ from service.api.storage import (
     disk_full,
     erase_at_once,
     erase_blobs,
-    stored_content,
     storing,
     with_blobs,
     writing,
@@ -130,8 +128,7 @@ async def get_picture(
         raise not_found(what="such picture")
     picture = StoredBlob(digest=record.id, media_type=record.media_type)
     rendition = picture_rendition(picture, accept=wanted.accept)
-    read = partial(stored_content, context.blobs, record.scope)
-    return await answer_file(context, rendition, read, wanted)
+    return await answer_file(context, record.scope, rendition, wanted)
 
 
 @ROUTER.delete(

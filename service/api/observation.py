@@ -66,25 +66,6 @@ class ServiceMetrics:
             registry=self._registry,
         )
 
-        self._estimates = Counter(
-            "maquette_estimates",
-            "Questions to the estimators of this process, by how they ended.",
-            ["question", "outcome"],
-            registry=self._registry,
-        )
-        self._estimate_seconds = Histogram(
-            "maquette_estimate_seconds",
-            "How long these questions took, waiting for an estimator included.",
-            ["question"],
-            buckets=REQUEST_BOUNDS_S,
-            registry=self._registry,
-        )
-
-    def count_estimate(self, *, question: str, outcome: str, seconds: float) -> None:
-        """Count a question to an estimator."""
-        self._estimates.labels(question, outcome).inc()
-        self._estimate_seconds.labels(question).observe(seconds)
-
     def count(self, *, method: str, route: str, status: int, seconds: float) -> None:
         """Count an answered request; ``route`` is the template, never the path."""
         self._requests.labels(method, route, str(status)).inc()
@@ -151,7 +132,7 @@ class _EngineCollector(Collector):
         )
         durations = HistogramMetricFamily(
             "maquette_job_seconds",
-            "How long jobs waited, ran, and spent in each stage of the fit.",
+            "How long jobs waited and ran.",
             labels=["phase"],
         )
         for histogram in statistics.durations:

@@ -163,9 +163,7 @@ async def get_product_file(
     """Return a file."""
     product = await run_in_threadpool(_find, context, fit, product_id)
     rendition = chosen_rendition(_files(product), name, state=product.state, accept=wanted.accept)
-    return await answer_file(
-        context, rendition, partial(stored_content, context.blobs, fit.id), wanted
-    )
+    return await answer_file(context, fit.id, rendition, wanted)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -120,7 +120,7 @@ def serve(
         blobs=blobs,
         disk=open_disk(settings),
         ask=asking(address),
-        read_header=header_lane(settings),
+        read_header_for=header_lane(settings),
         keys=KeyRing(database),
         draining=draining,
     )

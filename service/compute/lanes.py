@@ -10,10 +10,12 @@ that question alone and is replaced. All troubles are answers too, as problems.
 
 import logging
 import os
-import queue
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Future
+from functools import partial
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import Final
@@ -34,6 +36,7 @@ from service.compute.messages import (
     send,
 )
 from service.compute.tasks import ChildSetup, Parts, child_setup
+from service.compute.turns import Turns
 from service.process.logs import log_context
 from service.process.supervisor import SAFE_PATH_VARIABLE
 from service.settings import Settings
@@ -89,7 +92,7 @@ def capacity(children: int) -> int:
 
 
 class QuickLane:
-    """Answers questions in the order they come; for any number of threads."""
+    """Answers questions of owners who take turns; for any number of threads."""
 
     def __init__(
         self,
@@ -100,23 +103,32 @@ class QuickLane:
         ready_within_s: float = READY_WITHIN_S,
     ) -> None:
         self._ready_within_s = ready_within_s
-        self._idle: queue.SimpleQueue[_Place] = queue.SimpleQueue()
-        for _ in range(children):
-            self._idle.put(_Place(server, setup))
-        self._room = threading.BoundedSemaphore(capacity(children))
+        self._idle = deque(_Place(server, setup) for _ in range(children))
+        self._turns: Turns[Future[_Place | None]] = Turns(capacity(children))
+        self._lock = threading.Lock()
 
     def answer(self, question: TaskMessage, parts: Parts) -> Received:
         """Return what a child answers, or the problem why none does."""
-        if not self._room.acquire(blocking=False):
+        turn: Future[_Place | None] = Future()
+        with self._lock:
+            if (refused := self._turns.join(question.owner, turn)) is not None:
+                refused.set_result(None)
+            self._begin()
+        place = turn.result()
+        if place is None:
             return _told(UNAVAILABLE)
+        began = time.monotonic()
         try:
-            place = self._idle.get()
-            try:
-                return place.answer(question, parts, ready_within_s=self._ready_within_s)
-            finally:
-                self._idle.put(place)
+            return place.answer(question, parts, ready_within_s=self._ready_within_s)
         finally:
-            self._room.release()
+            with self._lock:
+                self._idle.append(place)
+                self._turns.end(question.owner, time.monotonic() - began)
+                self._begin()
+
+    def _begin(self) -> None:
+        while self._idle and (turn := self._turns.begin()) is not None:
+            turn.set_result(self._idle.popleft())
 
 
 class _Place:
@@ -255,8 +267,8 @@ class HeaderAnswer(WireModel):
     damage: str = ""
 
 
-def header_lane(settings: Settings) -> ReadHeader:
-    """Start the children, and return what has a header read by one of them.
+def header_lane(settings: Settings) -> Callable[[str], ReadHeader]:
+    """Start the children, and return what has a header read by one of them for an owner.
 
     It raises :class:`RefusedError` too, where none of them answers in time.
     """
@@ -266,16 +278,17 @@ def header_lane(settings: Settings) -> ReadHeader:
     setup = child_setup(settings, name="header", tasks=HEADERS)
     lane = QuickLane(server, setup, children=HEADER_CHILDREN, ready_within_s=HEADERS_READY_WITHIN_S)
 
-    def ask(content: bytes) -> Received:
-        return lane.answer(TaskMessage(task=HEADER, parts=(PICTURE,)), {PICTURE: content})
+    def ask(owner: str, content: bytes) -> Received:
+        task = TaskMessage(task=HEADER, owner=owner, parts=(PICTURE,))
+        return lane.answer(task, {PICTURE: content})
 
-    def read(content: bytes) -> ImageHeader:
+    def read(owner: str, content: bytes) -> ImageHeader:
         # What can be told from the first bytes needs no child.
         kind_of(content)
-        answer = ask(content)
+        answer = ask(owner, content)
         if _problem_in(answer) == FAILED:
             # Something else may have killed the child: only a second one tells of the picture.
-            answer = ask(content)
+            answer = ask(owner, content)
         if isinstance(answer.message, DoneMessage):
             said = HeaderAnswer.model_validate_json(answer.parts[ANSWER])
             if said.header is not None:
@@ -286,7 +299,7 @@ def header_lane(settings: Settings) -> ReadHeader:
         message = "its header cannot be read"
         raise DamagedImageError(message)
 
-    return read
+    return lambda owner: partial(read, owner)
 
 
 def _problem_in(answer: Received) -> Problem | None:

@@ -28,10 +28,14 @@ class _Header(WireModel):
 
 
 class TaskMessage(_Header):
-    """Compute this, of the table of tasks; every line logged meanwhile has ``log_context``."""
+    """Compute this, of the table of tasks; every line logged meanwhile has ``log_context``.
+
+    Owners take turns where several ask the same processes.
+    """
 
     kind: Literal["task"] = "task"
     task: str
+    owner: str = ""
     log_context: dict[str, str] = Field(default_factory=dict[str, str])
 
 

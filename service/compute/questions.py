@@ -5,17 +5,12 @@ they are not jobs. Each task is given a part with its question, JSON, and where 
 each gives a part with its answer, JSON, and where there is one a file.
 """
 
-from dataclasses import dataclass
 from typing import Final
 
 from pydantic import BaseModel
 
 from api_schemas.base import WireModel
-from api_schemas.questions import (
-    BodyEstimate,
-    BodyRequest,
-    PointsProposal,
-)
+from api_schemas.questions import BodyRequest
 from service.compute.tasks import Parts
 
 BODY: Final = "body"
@@ -40,22 +35,6 @@ class ConversionTask(WireModel):
     """Write the body of the GLB file in the format of this ending."""
 
     ending: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EstimatedBody:
-    """The answer, and the GLB file if the task asks for it, else no bytes."""
-
-    estimate: BodyEstimate
-    glb: bytes
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProposedPoints:
-    """The answer, and the mask's PNG file if the task asks for it, else no bytes."""
-
-    proposal: PointsProposal
-    mask: bytes
 
 
 def answered(answer: BaseModel, file: bytes = b"") -> Parts:

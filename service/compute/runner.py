@@ -2,11 +2,10 @@
 
 import logging
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Final, ParamSpec, TypeVar
+from dataclasses import replace
+from typing import Final
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from api_schemas.problems import Problem, problem
 from api_schemas.results import ResultFile
@@ -21,8 +20,13 @@ from service.compute.messages import (
 )
 from service.compute.tasks import OPTIONS, PRODUCT, ChildSetup, Parts, describe_file
 from service.jobs.attempts import Attempt
-from service.jobs.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
-from service.jobs.inputs import RESULT
+from service.jobs.blobs import (
+    BlobMissingError,
+    BlobStore,
+    BlobsUnavailableError,
+    StorageFullError,
+    retry_while_storage_is_away,
+)
 from service.jobs.records import (
     FIT,
     AttemptResult,
@@ -32,11 +36,7 @@ from service.jobs.records import (
     Report,
 )
 from service.process.logs import current_log_context
-from service.process.retrying import retry_with_pauses
 from service.settings import Settings
-
-P = ParamSpec("P")
-T = TypeVar("T")
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -145,13 +145,10 @@ class JobRunner:
             return STOPPED[directive]
         return AttemptResult(
             ending=Ending.SUCCEEDED,
-            files=self._store(attempt.job.scope, computed.files),
-            stage_seconds=computed.stage_seconds,
+            files=self._store(attempt.job.scope, computed),
         )
 
-    def _compute(
-        self, child: Child, attempt: Attempt, deadline: float
-    ) -> "_Computed | AttemptResult":
+    def _compute(self, child: Child, attempt: Attempt, deadline: float) -> Parts | AttemptResult:
         try:
             with child.killed_in_time(deadline - time.monotonic() + WATCHDOG_S):
                 self._give(child, attempt.job)
@@ -177,9 +174,7 @@ class JobRunner:
     def _timed_out(self) -> AttemptResult:
         return AttemptResult(ending=Ending.TIMED_OUT, problem=too_slow(self._time_limit_s))
 
-    def _follow(
-        self, attempt: Attempt, child: Child, *, deadline: float
-    ) -> "_Computed | AttemptResult":
+    def _follow(self, attempt: Attempt, child: Child, *, deadline: float) -> Parts | AttemptResult:
         progress = ThrottledProgress(attempt)
         next_look = 0.0
         while True:
@@ -208,30 +203,14 @@ class JobRunner:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Computed:
-    """A result that has yet to be stored."""
-
-    files: Parts
-    stage_seconds: Mapping[str, float]
-
-
-class _Timed(BaseModel):
-    """The part of a result's document that says how long each stage took; products have none."""
-
-    stage_seconds: dict[str, float] = {}
-
-
 def _failed(reason: Problem) -> AttemptResult:
     return AttemptResult(ending=Ending.FAILED, problem=reason)
 
 
-def _ended(received: Received) -> _Computed | AttemptResult:
+def _ended(received: Received) -> Parts | AttemptResult:
     match received.message:
         case DoneMessage():
-            files = received.parts
-            timed = _Timed.model_validate_json(files.get(RESULT, b""))
-            return _Computed(files=files, stage_seconds=timed.stage_seconds)
+            return received.parts
         case ProblemMessage(problem=reason):
             return _failed(reason)
         case FaultMessage(out_of_memory=True):
@@ -241,11 +220,6 @@ def _ended(received: Received) -> _Computed | AttemptResult:
         case _:
             message = f"a child sent a message of kind {received.message.kind}"
             raise OSError(message)
-
-
-def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
-    """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
-    return retry_with_pauses(BlobsUnavailableError, "storage")(operation)
 
 
 class ThrottledProgress:

@@ -26,7 +26,6 @@ from service.jobs.rows import (
     FILES,
     Endings,
     append_event,
-    count_durations,
     find_job,
     job_record,
     move_job,
@@ -170,7 +169,7 @@ class AttemptLog:
         state = JobState(result.ending.value)
         complete = {"progress": 1.0} if state is JobState.SUCCEEDED else {}
         with self._database.begin() as connection:
-            ended = self._endings.end(
+            return self._endings.end(
                 connection,
                 job_id,
                 JOBS.c.attempt == attempt,
@@ -178,12 +177,6 @@ class AttemptLog:
                 problem=result.problem,
                 values={"files": FILES.dump_json(result.files).decode(), **complete},
             )
-            if ended is not None:
-                count_durations(
-                    connection,
-                    {f"stage.{stage}": lasted for stage, lasted in result.stage_seconds.items()},
-                )
-            return ended
 
     def await_database(self) -> None:
         """Return once the database takes writes.

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Final, Protocol, TypeVar
 
+from service.process.retrying import retry_with_pauses
 from service.settings import PREFIX, Settings
 
 T = TypeVar("T")
@@ -48,6 +49,10 @@ class StorageRefusedError(BlobsUnavailableError):
 
 class StorageUnusableError(Exception):
     """The store cannot be used as it is set up; the message, one line, says what to do."""
+
+
+retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
+"""Retries an operation on blobs, all of which are safe to repeat, for up to two minutes."""
 
 
 class BlobStore(Protocol):

@@ -201,19 +201,13 @@ def count_ending(connection: sa.Connection, job: JobRecord) -> None:
             index_elements=[OUTCOMES.c.state], set_={"jobs": OUTCOMES.c.jobs + 1}
         )
     )
+    if job.started_at is None or job.finished_at is None:
+        return
     running = RUNNING if job.kind == FIT else f"{RUNNING}.{job.kind}"
-    if job.started_at is not None and job.finished_at is not None:
-        count_durations(
-            connection,
-            {
-                WAITING: job.started_at - job.created_at,
-                running: job.finished_at - job.started_at,
-            },
-        )
-
-
-def count_durations(connection: sa.Connection, seconds: Mapping[str, float]) -> None:
-    """Add one duration to the histogram of each phase."""
+    seconds = {
+        WAITING: job.started_at - job.created_at,
+        running: job.finished_at - job.started_at,
+    }
     # Always in the same order, so that two transactions cannot deadlock.
     for phase, duration in sorted(seconds.items()):
         # A clock that was set back can make a duration negative.

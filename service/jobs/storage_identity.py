@@ -17,9 +17,9 @@ import sqlalchemy as sa
 from service.jobs.blobs import (
     BlobMissingError,
     BlobStore,
-    BlobsUnavailableError,
     StorageRefusedError,
     StorageUnusableError,
+    retry_while_storage_is_away,
     setting_of_storage,
 )
 from service.jobs.blobs_local import LocalBlobStore
@@ -30,15 +30,12 @@ from service.jobs.database import (
     retry_while_database_is_away,
     write_fact,
 )
-from service.process.retrying import retry_with_pauses
 from service.settings import SettingError, Settings
 
 STORAGE_FACT: Final = "storage"
 OFFERED_FACT: Final = "storage_offered"
 SCOPE: Final = "storage-of"
 """Scope of the number; scopes of jobs have other names, and only those are ever erased."""
-
-retry_while_storage_is_away = retry_with_pauses(BlobsUnavailableError, "storage")
 
 
 def open_blob_store(settings: Settings) -> BlobStore:

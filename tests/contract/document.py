@@ -1,4 +1,7 @@
-"""The exported OpenAPI document, and ways through it."""
+"""The exported OpenAPI document, and ways through it.
+
+``python -m tests.contract.document`` exports it.
+"""
 
 import json
 from collections.abc import Iterator
@@ -80,3 +83,10 @@ def validator(schema: dict[str, Any], document: Document) -> jsonschema_rs.Draft
     """Validate against a schema of the document, formats and references included."""
     whole = {**schema, "components": document["components"]}
     return jsonschema_rs.Draft202012Validator(whole, validate_formats=True)
+
+
+if __name__ == "__main__":
+    # Imported here: whoever reads the document needs no service.
+    from service.api.app import openapi_text
+
+    EXPORTED.write_text(openapi_text())

@@ -163,13 +163,6 @@ def test_the_version_is_printed(capsys):
     assert capsys.readouterr().out == f"maquette {VERSION}\n"
 
 
-def test_the_exported_contract_can_be_printed(tmp_path):
-    with pytest.raises(SystemExit) as ended:
-        main(["openapi", "--output", str(tmp_path / "openapi.json")])
-    assert ended.value.code == 0
-    assert json.loads((tmp_path / "openapi.json").read_text())["openapi"].startswith("3.1")
-
-
 def test_keys_are_those_of_the_data_folder_that_is_named(tmp_path, capsys):
     for action in (["create", "shop"], ["list"]):
         with pytest.raises(SystemExit) as ended:

@@ -93,15 +93,7 @@ def test_an_initial_pose_that_cannot_be_is_refused_by_field(service: Service, ch
     assert (problem.field, problem.code) == (field, code)
 
 
-def failed(service: Service) -> float:
-    """How many questions for a body the figures say have failed."""
-    figures = service.client.get("/metrics").text
-    counted = 'maquette_estimates_total{outcome="failed",question="body"} '
-    return float(figures.partition(counted)[2].split()[0]) if counted in figures else 0.0
-
-
 def test_a_fault_and_a_crash_are_told_and_leave_the_service_up(service: Service):
-    before = failed(service)
     for script in ("fault", "segfault"):
         answer = service.client.post(
             "/v1/bodies", json={"gender": "male", "measurements": {script: 1}}
@@ -111,10 +103,6 @@ def test_a_fault_and_a_crash_are_told_and_leave_the_service_up(service: Service)
         lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
         what="the next estimator answers",
     )
-    assert failed(service) == before + 2
-    figures = service.client.get("/metrics").text
-    assert 'maquette_estimates_total{outcome="answered",question="body"}' in figures
-    assert 'maquette_estimate_seconds_count{question="body"}' in figures
 
 
 def test_without_an_estimator_the_service_says_so_and_takes_fits(tmp_path):

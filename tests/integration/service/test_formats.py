@@ -141,12 +141,6 @@ def test_a_body_s_mesh_and_table_are_its_own(service: Service):
     assert checked(post("fbx"), 422).field == "format"
 
 
-def test_a_conversion_is_counted_among_the_estimates(service: Service, files):
-    get(service, f"{files}/body_canonical.stl")
-    figures = service.client.get("/metrics").text
-    assert 'maquette_estimates_total{outcome="answered",question="conversion"}' in figures
-
-
 def test_without_an_estimator_stored_files_are_there_and_others_are_for_later(tmp_path):
     with running_service(Machine(tmp_path), estimator="broken") as service:
         files = f"{service.fitted()}/files"

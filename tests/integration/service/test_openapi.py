@@ -11,7 +11,7 @@ MOST_BYTES = 350_000
 
 
 def test_the_exported_document_is_up_to_date():
-    assert EXPORTED.read_text() == openapi_text(), "run `maquette openapi --output` anew"
+    assert EXPORTED.read_text() == openapi_text(), "run `make openapi`"
 
 
 def test_the_served_document_is_the_exported_one(service: Service):

@@ -61,10 +61,11 @@ def estimators(gate: Path) -> set[int]:
     return {each.pid for each in processes_with(GATE, gate) if each.name == SETUP.name}
 
 
-def asked(lane: QuickLane, *, with_glb: bool = False, **script: float) -> Received:
+def asked(lane: QuickLane, *, owner: str = "", with_glb: bool = False, **script: float) -> Received:
     request = BodyRequest(gender=Gender.MALE, measurements=dict(script))
     question = BodyTask(request=request, with_glb=with_glb).model_dump_json().encode()
-    return lane.answer(TaskMessage(task=BODY, parts=(QUESTION,)), {QUESTION: question})
+    task = TaskMessage(task=BODY, owner=owner, parts=(QUESTION,))
+    return lane.answer(task, {QUESTION: question})
 
 
 def trouble(received: Received) -> str:
@@ -158,8 +159,13 @@ def test_as_many_are_answered_at_once_as_there_are_children_and_too_many_are_tur
         caller.start()
     # Nobody is answered before the gate opens, so every place is taken and stays so.
     eventually(lambda: len(answers) == 5, what="those beyond the capacity were turned away")
+    others: list[Received] = []
+    other = threading.Thread(target=lambda: others.append(asked(lane, owner="other", gate=1.0)))
+    other.start()
+    eventually(lambda: len(answers) == 6, what="one gave way to the question of another owner")
     assert {trouble(each) for each in answers} == {"estimator-unavailable"}
     gate.touch()
-    for caller in callers:
+    for caller in (*callers, other):
         caller.join()
-    assert sum(isinstance(each.message, DoneMessage) for each in answers) == capacity
+    answered = [isinstance(each.message, DoneMessage) for each in (*answers, *others)]
+    assert (sum(answered), answered[-1]) == (capacity, True)

@@ -7,8 +7,7 @@ import sqlalchemy as sa
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.compute.runner import retry_while_storage_is_away
-from service.jobs.blobs import BlobsUnavailableError
+from service.jobs.blobs import BlobsUnavailableError, retry_while_storage_is_away
 from service.jobs.database import open_database, prepare_database, retry_while_database_is_away
 from service.jobs.records import DatabaseUnusableError
 from service.process import retrying

@@ -33,7 +33,6 @@ from service.compute.questions import (
     POINTS,
     QUESTION,
     BodyTask,
-    ProposedPoints,
 )
 from service.compute.tasks import ChildSetup, Parts, ProblemError, UnusableInputError
 from service.demo_data.sample import load_sample
@@ -50,10 +49,10 @@ def asked(
 
 def points(
     question: PointsRequest, image: bytes, *, detector: Path | None = None
-) -> ProposedPoints:
+) -> tuple[PointsProposal, bytes]:
+    """The proposal, and the mask's PNG file."""
     parts = asked(POINTS, question, image, detector=detector)
-    proposal = PointsProposal.model_validate_json(parts[ANSWER])
-    return ProposedPoints(proposal=proposal, mask=parts[FILE])
+    return PointsProposal.model_validate_json(parts[ANSWER]), parts[FILE]
 
 
 def jpeg(image: bytes) -> bytes:
@@ -148,10 +147,9 @@ def test_a_pose_of_somebody_nobody_is_is_refused_where_it_was_said():
 def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     sample = load_sample()
     task = PointsRequest(mask=True)
-    found = points(task, sample.image)
-    with Image.open(io.BytesIO(found.mask)) as mask:
+    proposal, file = points(task, sample.image)
+    with Image.open(io.BytesIO(file)) as mask:
         assert (mask.mode, mask.size) == ("L", (720, 960))
-    proposal = found.proposal
     assert len(proposal.points) == 21
     assert proposal.doubtful == ()
     for point in proposal.points.values():
@@ -165,7 +163,7 @@ def sample_of_a_phone() -> bytes:
 
 def test_points_of_a_heic_are_those_of_the_jpeg():
     found = [points(PointsRequest(), image) for image in (load_sample().image, sample_of_a_phone())]
-    jpeg_points, heic_points = (each.proposal.points for each in found)
+    jpeg_points, heic_points = (proposal.points for proposal, _ in found)
     assert len(jpeg_points) >= 16
     assert jpeg_points.keys() == heic_points.keys()
     off = [
@@ -192,8 +190,8 @@ def test_what_cannot_be_decoded_cannot_be_written_as_a_jpeg():
 
 def checked_sample(*, detector: Path | None = None, **said: object):
     request = PointsRequest.model_validate(said)
-    found = points(request, load_sample().image, detector=detector)
-    return found.proposal
+    proposal, _ = points(request, load_sample().image, detector=detector)
+    return proposal
 
 
 def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():

@@ -1,30 +1,34 @@
 """What the API makes of estimators' answers and troubles."""
 
 import asyncio
+import threading
+from functools import partial
+from unittest.mock import create_autospec
 
 import pytest
+from fastapi import FastAPI, Request
 
 from api_schemas.problems import Problem
 from api_schemas.questions import BodyRequest, PointsRequest
 from fitter.vocabulary.choices import Gender
+from service.api.context import Parts as SharedParts
+from service.api.context import _context as context_of
 from service.api.estimators import Estimators
+from service.api.events import EventFeed
 from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.compute.questions import BODY, FILE, POINTS, QUESTION, BodyTask
 from service.compute.tasks import Parts
+from service.jobs.blobs import WatchedBlobs
+from service.jobs.engine import JobEngine
 from service.process.data_folder import Disk
+from service.settings import Settings
+from service.submissions.image_header import ImageHeader
 from service.submissions.submission import no_detector
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
-
-
-class NoEngine:
-    """No figures but those counted here are asked for."""
-
-
-METRICS = ServiceMetrics(NoEngine(), Disk(None, reserve_bytes=0))
 
 
 class Troubled:
@@ -42,7 +46,7 @@ class Troubled:
 
 
 def troubled(problem: Problem) -> Estimators:
-    return Estimators(Troubled(problem), METRICS, estimators=1)
+    return Estimators(Troubled(problem), estimators=1)
 
 
 @pytest.mark.parametrize(
@@ -77,8 +81,36 @@ def test_a_file_goes_along_and_comes_back():
         asked.append((question, parts))
         return Received(DoneMessage(parts=(FILE,)), {FILE: b"v 0 0 0"})
 
-    estimators = Estimators(ask, METRICS, estimators=1)
+    estimators = Estimators(ask, estimators=1)
     assert asyncio.run(estimators.convert(b"glTF", "obj")) == b"v 0 0 0"
     ((question, parts),) = asked
     assert (question.task, question.parts) == ("conversion", (QUESTION, FILE))
     assert parts == {QUESTION: b'{"ending":"obj"}', FILE: b"glTF"}
+
+
+def test_questions_and_headers_are_asked_for_the_tenant_of_the_request():
+    told = Troubled(FAILED)
+    owners: list[str] = []
+
+    def read(owner: str, _: bytes) -> ImageHeader:
+        owners.append(owner)
+        return ImageHeader(media_type="image/png", width=1, height=1)
+
+    app = FastAPI()
+    app.state.parts = SharedParts(
+        settings=Settings(),
+        engine=create_autospec(JobEngine),
+        blobs=create_autospec(WatchedBlobs),
+        disk=Disk(None, reserve_bytes=0),
+        estimators=Estimators(told, estimators=1),
+        feed=create_autospec(EventFeed),
+        metrics=create_autospec(ServiceMetrics),
+        draining=threading.Event(),
+        read_header_for=lambda owner: partial(read, owner),
+    )
+    for tenant in ("shop", "tailor"):
+        context = context_of(Request({"type": "http", "app": app, "state": {"tenant": tenant}}))
+        context.read_header(b"a picture")
+        with pytest.raises(ProblemError):
+            asyncio.run(context.estimators.answer(BODY, TASK))
+    assert owners == [each.owner for each in told.asked] == ["shop", "tailor"]

@@ -1,12 +1,14 @@
-"""The order in which waiting jobs are begun, played through with one slot or several."""
+"""The order in which jobs are begun and questions answered, played through on a simulated clock."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from service.compute.turns import Turns
 from service.jobs.submit import next_turn
 
 ALICE, BOB, CAROL = "alice", "bob", "carol"
@@ -155,3 +157,138 @@ def test_fits_and_products_of_a_tenant_take_turns_among_those_of_others():
     assert Counter(order[:10])[BOB] == 4
     assert order.index(ALICE) < 5
     assert Counter(order) == Counter({ALICES_PRODUCTS: 4, ALICE: 4, BOB: 4})
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question that keeps a process busy for so many seconds."""
+
+    owner: str
+    number: int
+    seconds: float
+
+
+class Asked:
+    """Questions to so many processes, on a clock that moves from one answer to the next."""
+
+    def __init__(self, *, processes: int = 1, most: int = 1_000) -> None:
+        self.turns: Turns[Question] = Turns(most)
+        self.processes = processes
+        self.now = 0.0
+        self.answering: list[tuple[float, Question]] = []
+        self.begun: list[Question] = []
+        self.asked = 0
+
+    def ask(self, owner: str, *, seconds: float = 1.0, times: int = 1) -> list[Question]:
+        """Ask so often; returns what is refused for it."""
+        refused: list[Question] = []
+        for _ in range(times):
+            self.asked += 1
+            out = self.turns.join(owner, Question(owner, self.asked, seconds))
+            refused += [] if out is None else [out]
+            self.begin()
+        return refused
+
+    def begin(self) -> None:
+        while len(self.answering) < self.processes and (question := self.turns.begin()):
+            self.answering.append((self.now + question.seconds, question))
+            self.begun.append(question)
+
+    def answer_one(self) -> Question:
+        """The answer that is ready first; then the next is begun."""
+        first = min(self.answering, key=lambda each: (each[0], each[1].number))
+        self.answering.remove(first)
+        self.now, question = first
+        self.turns.end(question.owner, question.seconds)
+        self.begin()
+        return question
+
+    def run_out(self) -> list[str]:
+        """Who is answered, in that order, until nobody waits."""
+        answered: list[str] = []
+        while self.answering:
+            answered.append(self.answer_one().owner)
+        return answered
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_question_waits_for_one_of_another_owner_however_many_those_are(processes: int):
+    asked = Asked(processes=processes)
+    asked.ask(ALICE, seconds=10.0, times=12)
+    asked.ask(BOB)
+    asked.answer_one()
+    assert asked.begun[-1].owner == BOB
+
+
+def test_one_question_of_an_owner_is_answered_at_a_time_while_others_wait():
+    asked = Asked(processes=3)
+    for owner, times in ((ALICE, 9), (BOB, 5), (CAROL, 2)):
+        asked.ask(owner, times=times)
+    together: list[list[str]] = []
+    while asked.answering:
+        together.append(sorted(each.owner for _, each in asked.answering))
+        for _ in range(len(asked.answering)):
+            asked.answer_one()
+    assert together == [
+        [ALICE] * 3,  # nobody else had asked
+        *[[ALICE, BOB, CAROL]] * 2,
+        *[[ALICE, ALICE, BOB]] * 2,
+        [BOB],
+    ]
+
+
+def test_questions_that_take_longer_have_fewer_turns():
+    asked = Asked()
+    asked.ask(ALICE, seconds=10.0, times=20)
+    asked.ask(BOB, seconds=1.0, times=100)
+    seconds: Counter[str] = Counter()
+    while asked.now < 150.0:
+        question = asked.answer_one()
+        seconds[question.owner] += round(question.seconds)
+        # The first of them was answered while nobody else had asked.
+        assert abs(seconds[ALICE] - seconds[BOB]) <= 20
+
+
+def test_seconds_that_nobody_waited_for_are_not_held_against_an_owner():
+    asked = Asked()
+    for _ in range(100):
+        asked.ask(ALICE)
+        asked.answer_one()
+    asked.ask(BOB, times=3)
+    asked.ask(ALICE, times=3)
+    assert asked.run_out() == [BOB, ALICE, BOB, ALICE, BOB, ALICE]
+
+
+def test_questions_of_one_owner_alone_are_answered_in_their_order_by_all_processes():
+    asked = Asked(processes=2)
+    asked.ask(ALICE, times=7)
+    assert len(asked.answering) == 2
+    asked.run_out()
+    assert [each.number for each in asked.begun] == [1, 2, 3, 4, 5, 6, 7]
+
+
+def test_who_fills_all_places_gives_way_with_the_last_question_and_then_nobody_does():
+    asked = Asked(most=4)
+    assert asked.ask(ALICE, times=4) == []
+    # One is being answered, three wait: a fifth is refused, and another owner's is not.
+    assert [each.number for each in asked.ask(ALICE)] == [5]
+    assert [(each.owner, each.number) for each in asked.ask(BOB)] == [(ALICE, 4)]
+    assert [(each.owner, each.number) for each in asked.ask(CAROL)] == [(ALICE, 3)]
+    assert [each.owner for each in asked.ask(BOB)] == [BOB]
+    assert asked.run_out() == [ALICE, BOB, CAROL, ALICE]
+
+
+@given(st.lists(st.tuples(st.sampled_from("abc"), st.floats(0.0, 10.0)), max_size=60))
+def test_every_question_is_answered_once_and_those_of_an_owner_in_their_order(
+    questions: list[tuple[str, float]],
+):
+    asked = Asked(processes=2)
+    for number, (owner, seconds) in enumerate(questions):
+        asked.ask(owner, seconds=seconds)
+        if number % 3 == 2:
+            asked.answer_one()
+    asked.run_out()
+    for owner in "abc":
+        numbers = [each.number for each in asked.begun if each.owner == owner]
+        assert numbers == sorted(numbers)
+    assert len(asked.begun) == len(questions)
