@@ -15,7 +15,7 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.api.limits import RateLimit
-from service.api.problems import ProblemError, problem_error, problem_response
+from service.api.problems import ProblemError, problem_error, problem_response, unavailable
 from service.jobs.keys import ApiKey, KeyRing, hash_key
 from service.jobs.records import EngineUnavailableError
 from service.settings import is_loopback
@@ -101,6 +101,9 @@ class Authentication:
             answer = problem_response(request, error.problem, error.headers)
             await answer(scope, receive, send)
             return
+        except EngineUnavailableError as error:
+            await unavailable(request, error)(scope, receive, send)
+            return
         await self._app(scope, receive, send)
 
     async def _tenant(self, request: Request) -> str:
@@ -110,10 +113,7 @@ class Authentication:
         scheme, _, presented = request.headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer" or not presented.strip():
             raise _unauthorized(detail="There is no API key.")
-        try:
-            key = await run_in_threadpool(self._keys.find, presented.strip())
-        except EngineUnavailableError as error:
-            raise _not_ready() from error
+        key = await run_in_threadpool(self._keys.find, presented.strip())
         if key is None:
             raise _unauthorized(detail="The API key is unknown or revoked.")
         if (key.tenant == METRICS_TENANT) != (path == METRICS_PATH):
@@ -201,13 +201,4 @@ def _too_many(retry_after_s: int) -> ProblemError:
         detail="This key asks too often.",
         remedy="Wait for the seconds in Retry-After; follow events instead of polling.",
         headers={"Retry-After": str(retry_after_s)},
-    )
-
-
-def _not_ready() -> ProblemError:
-    return problem_error(
-        slug="not-ready",
-        code="database-unavailable",
-        detail="The API keys cannot be looked up at the moment.",
-        remedy="Try again after the time in Retry-After.",
     )

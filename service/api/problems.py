@@ -22,10 +22,23 @@ from api_schemas.problems import (
     shortened,
 )
 from service.jobs.blobs import BlobsUnavailableError, StorageFullError
-from service.jobs.records import EngineFullError, EngineUnavailableError, JobExpiredError
+from service.jobs.database import DAMAGE_REMEDY
+from service.jobs.records import (
+    EngineDamagedError,
+    EngineFullError,
+    EngineUnavailableError,
+    JobExpiredError,
+)
 from service.submissions.refusal import RefusedError, field_problems
 
 LOG: Final = logging.getLogger(__name__)
+
+DAMAGED: Final = problem(
+    "not-ready",
+    code="database-damaged",
+    detail="The file of the database is damaged.",
+    remedy=DAMAGE_REMEDY,
+)
 
 RETRY_AFTER_S: Final = 5
 
@@ -93,19 +106,15 @@ def documented_responses(paths: str) -> dict[str, dict[str, Any]]:
 def problem_response(
     request: Request, reason: Problem, headers: Mapping[str, str] | None = None
 ) -> Response:
-    """Answer with a problem."""
+    """Answer with a problem, and when to try again where that is the remedy."""
+    later = {"Retry-After": str(RETRY_AFTER_S)}
     located = reason.model_copy(update={"instance": shortened(request.url.path, LONGEST_TEXT)})
     return Response(
         located.model_dump_json(),
         status_code=reason.status,
         media_type=PROBLEM_MEDIA_TYPE,
-        headers=retry_header(reason) | dict(headers or {}),
+        headers={**(later if reason.status in (429, 503) else {}), **(headers or {})},
     )
-
-
-def retry_header(reason: Problem) -> dict[str, str]:
-    """The header that says when to try again, if trying again is the remedy."""
-    return {"Retry-After": str(RETRY_AFTER_S)} if reason.status in (429, 503) else {}
 
 
 def install_problem_handlers(app: FastAPI) -> None:
@@ -114,8 +123,8 @@ def install_problem_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RefusedError, _on_problem)
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(HTTPException, _on_http)
-    app.add_exception_handler(EngineUnavailableError, _on_unavailable)
-    app.add_exception_handler(BlobsUnavailableError, _on_unavailable)
+    app.add_exception_handler(EngineUnavailableError, unavailable)
+    app.add_exception_handler(BlobsUnavailableError, unavailable)
     app.add_exception_handler(JobExpiredError, _on_expired)
 
 
@@ -150,7 +159,11 @@ def _on_http(request: Request, error: Exception) -> Response:
     return problem_response(request, reason, error.headers)
 
 
-def _on_unavailable(request: Request, error: Exception) -> Response:
+def unavailable(request: Request, error: Exception) -> Response:
+    """Answer that database or storage is away, full, or damaged."""
+    if isinstance(error, EngineDamagedError):
+        # The log has it from where it was found.
+        return problem_response(request, DAMAGED)
     what = "database" if isinstance(error, EngineUnavailableError) else "storage"
     is_full = isinstance(error, EngineFullError | StorageFullError)
     # A line, not a trace: in an outage every request comes through here.

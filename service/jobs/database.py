@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import logging
 import re
 import sqlite3
 import sys
@@ -16,7 +17,12 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import ArgumentError, DBAPIError, OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.jobs.records import DatabaseUnusableError, EngineFullError, EngineUnavailableError
+from service.jobs.records import (
+    DatabaseUnusableError,
+    EngineDamagedError,
+    EngineFullError,
+    EngineUnavailableError,
+)
 from service.jobs.tables import FACTS, JOBS, METADATA
 from service.process.data_folder import (
     database_files,
@@ -29,6 +35,8 @@ from service.settings import without_secrets
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+LOG: Final = logging.getLogger(__name__)
 
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created and facts are settled."""
@@ -76,6 +84,7 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
         secure_file(Path(parsed.database or ""))
         engine = sa.create_engine(parsed, **pool)
         event.listen(engine, "connect", configure_connection)
+        leave_when_damaged(engine)
         return engine
     engine = sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
@@ -217,6 +226,27 @@ def configure_connection(connection: Any, _: object) -> None:
         connection.execute(f"PRAGMA {pragma}")
 
 
+def leave_when_damaged(engine: sa.Engine) -> None:
+    """Have a file that proves damaged used no more: to everybody the database is away then."""
+    found: list[BaseException] = []
+
+    def note(context: sa.engine.ExceptionContext) -> OperationalError | None:
+        cause = context.original_exception
+        if not _is_damage(cause):
+            return None
+        if not found:
+            found.append(cause)
+            LOG.critical("The database is damaged (%s). %s", cause, DAMAGE_REMEDY)
+        return OperationalError(None, None, cause)
+
+    def refuse(*_: object) -> None:
+        if found:
+            raise found[0].with_traceback(None)
+
+    event.listen(engine, "handle_error", note, retval=True)
+    event.listen(engine, "checkout", refuse)
+
+
 def prepare_file(engine: sa.Engine) -> None:
     """Set what must be set before the first table exists."""
     # auto_vacuum takes effect only before the first table; DBOS sets neither pragma.
@@ -288,9 +318,9 @@ only the text. In languages other than English they are not recognised, and are 
 FINAL_STATES: Final = frozenset({"42501", "25006"})
 """SQLSTATE: insufficient privilege, or a read-only server."""
 
-FINAL_SQLITE: Final = frozenset(
-    {sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM}
-)
+DAMAGED_SQLITE: Final = frozenset({sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT})
+DAMAGE_REMEDY: Final = "Whoever runs the service stops it and puts a copy of the database back."
+FINAL_SQLITE: Final = DAMAGED_SQLITE | {sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM}
 PRIMARY_CODE: Final = 0xFF
 """The bits of an extended result code that hold the primary one."""
 
@@ -324,6 +354,10 @@ def is_full(error: BaseException) -> bool:
     return isinstance(cause, psycopg.Error) and cause.sqlstate == DISK_FULL
 
 
+def _is_damage(cause: object) -> bool:
+    return isinstance(cause, sqlite3.Error) and _sqlite_code(cause) & PRIMARY_CODE in DAMAGED_SQLITE
+
+
 def _sqlite_code(error: sqlite3.Error) -> int:
     return getattr(error, "sqlite_errorcode", 0)
 
@@ -336,6 +370,8 @@ def available(operation: Callable[P, T]) -> Callable[P, T]:
         try:
             return operation(*args, **kwargs)
         except ABSENCES as error:
+            if _is_damage(getattr(error, "orig", None)):
+                raise EngineDamagedError from error
             kind = EngineFullError if is_full(error) else EngineUnavailableError
             raise kind from error
 

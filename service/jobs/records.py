@@ -143,6 +143,10 @@ class EngineFullError(EngineUnavailableError):
     """The disk of the engine's database is full; nothing was changed."""
 
 
+class EngineDamagedError(EngineUnavailableError):
+    """The file of the engine's database is damaged, and is used no more."""
+
+
 class DatabaseUnusableError(Exception):
     """The database cannot be used as it is; the message, one line, says what to do."""
 
@@ -258,4 +262,3 @@ class AttemptResult:
     ending: Ending
     files: tuple[ResultFile, ...] = ()
     problem: Problem | None = None
-    stage_seconds: Mapping[str, float] = field(default_factory=dict[str, float])

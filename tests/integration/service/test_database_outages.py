@@ -15,6 +15,7 @@ from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import Machine, running_service
 from tests.integration.service.test_images import engine_of
+from tests.unit.service.test_database import damage
 
 WRITERS = 60
 """More than the threads in which requests are answered."""
@@ -99,3 +100,19 @@ def test_erasing_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
         stopping.join(STUCK_S)
         assert len(answers) == 1
         assert answers[0]
+
+
+def test_a_damaged_file_is_one_problem_for_everybody_who_asks(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+):
+    machine = Machine(tmp_path / "data")
+    with running_service(machine, api_only=True) as service:
+        damage(machine.data_dir / "maquette.sqlite", "maquette_jobs")
+        for path in ("/v1/fits", "/healthz/ready", "/v1/fits", "/v1/images"):
+            answer = service.client.get(path)
+            assert (answer.status_code, answer.json()["code"]) == (503, "database-damaged")
+            assert "copy" in answer.json()["remedy"]
+        assert service.client.get("/healthz/live").status_code == 200
+    said = capfd.readouterr().err
+    assert said.count("The database is damaged") == 1
+    assert "Traceback" not in said

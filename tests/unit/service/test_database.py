@@ -1,5 +1,8 @@
 """The database: refused if damaged or of another version, waited for while away."""
 
+import contextlib
+import logging
+import sqlite3
 from pathlib import Path
 
 import pytest
@@ -8,9 +11,12 @@ from sqlalchemy.exc import OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.jobs.blobs import BlobsUnavailableError, retry_while_storage_is_away
+from service.jobs.blobs_local import LocalBlobStore
 from service.jobs.database import open_database, prepare_database, retry_while_database_is_away
-from service.jobs.records import DatabaseUnusableError
+from service.jobs.engine import JobEngine
+from service.jobs.records import DatabaseUnusableError, EngineDamagedError
 from service.process import retrying
+from service.settings import Settings
 
 
 def test_tables_of_another_version_are_refused(tmp_path: Path):
@@ -38,6 +44,44 @@ def test_a_damaged_file_is_refused_before_anything_starts(tmp_path: Path):
     file.write_bytes(content)
     with pytest.raises(DatabaseUnusableError, match=r"MAQUETTE_DATA_DIR=.*(damaged|malformed)"):
         prepare_database(url)
+
+
+def damage(file: Path, table: str) -> None:
+    """Overwrite the first pages of a table and its indexes, under whoever has the file open."""
+    with contextlib.closing(sqlite3.connect(file)) as connection:
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        roots = "SELECT rootpage FROM sqlite_master WHERE tbl_name = ?"
+        (size,) = connection.execute("PRAGMA page_size").fetchone()
+        with file.open("r+b") as pages:
+            for (number,) in connection.execute(roots, [table]):
+                pages.seek((number - 1) * size)
+                pages.write(bytes([0xA5]) * size)
+        # Others read again what they have read before.
+        connection.execute("UPDATE maquette_facts SET value = value")
+        connection.commit()
+
+
+def test_a_file_that_proves_damaged_is_told_once_and_used_no_more(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+):
+    settings = Settings(data_dir=tmp_path)
+    prepare_database(settings.system_database_url)
+    database = open_database(settings.system_database_url, connections=2)
+    engine = JobEngine(database, LocalBlobStore(settings.blob_dir), settings)
+    with contextlib.closing(engine), caplog.at_level(logging.WARNING):
+        jobs = engine.of("somebody")
+        engine.check_writable()
+        assert jobs.job("a") is None
+        damage(settings.database_file, "maquette_jobs")
+        for _ in range(2):
+            with pytest.raises(EngineDamagedError):
+                jobs.job("a")
+            # The page of what it writes is whole.
+            with pytest.raises(EngineDamagedError):
+                engine.check_writable()
+    assert len(caplog.messages) == 1
+    assert "damaged" in caplog.messages[0]
+    assert "puts a copy of the database back" in caplog.messages[0]
 
 
 STATEMENT = "UPDATE"

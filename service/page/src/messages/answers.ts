@@ -15,6 +15,7 @@ export const answers = {
   },
   faults: {
     "database-unavailable": "The service cannot reach its database just now. Try again in a moment.",
+    "database-damaged": "The service’s database is damaged. Whoever runs it has to put a copy back.",
     "disk-full": "The service’s disk is nearly full. Try again later.",
     draining: "The service is being restarted. Try again in a moment.",
     "empty-upload": "This file is empty. Choose another one.",
@@ -27,6 +28,7 @@ export const answers = {
     "image-animated": "This picture moves. Choose one that stands still.",
     "image-damaged": "This picture is damaged. Choose another one.",
     "image-empty": "This picture is an empty file. Choose another one.",
+    "image-too-many-scans": "This picture is stored in too many steps. Save it anew, or choose another one.",
     "image-unsupported": "This kind of picture is not taken. Choose a JPEG, PNG or WebP.",
     "input-gone": "The picture is no longer there. Start another fit.",
     "internal-error": "An unexpected fault of the service. Try again.",
