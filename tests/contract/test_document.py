@@ -3,12 +3,16 @@
 import copy
 import json
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
 import jsonschema_rs
 import pytest
+from pydantic import BaseModel, ValidationError
 
 from api_schemas.jobs import EventData
+from api_schemas.picture import ViewRequest
+from api_schemas.questions import InitialPoseRequest, PointsRequest
 from service.api.events import ITEMS
 from tests.contract.document import exported, media_types, operations, validator, whole
 
@@ -61,6 +65,60 @@ def test_a_wrong_example_would_be_noticed():
     broken["request"]["views"][0]["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
     with pytest.raises(jsonschema_rs.ValidationError):
         validator(schema, DOCUMENT).validate(broken)
+
+
+NAMED = {
+    "left_shoulder": (438, 220),
+    "right_shoulder": (251, 225),
+    "left_hip": (390, 466),
+    "right_hip": (301, 462),
+    "left_knee": (408, 675),
+}
+POSE = {"gender": "male", "height_m": 1.8, "image_size": {"width": 720, "height": 960}}
+POINTS_OF: dict[type[BaseModel], dict[str, object]] = {
+    ViewRequest: {},
+    PointsRequest: {},
+    InitialPoseRequest: POSE,
+}
+"""Types of requests with points, and what else they need."""
+
+
+@pytest.mark.parametrize("kind", POINTS_OF, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize(
+    ("points", "is_right"),
+    [
+        ({name: [x, y] for name, (x, y) in NAMED.items()}, True),
+        ({name: [x, y, 1] for name, (x, y) in NAMED.items()}, True),
+        ({name: {"x": x, "y": y} for name, (x, y) in NAMED.items()}, True),
+        (
+            {
+                name: {"x": x, "y": y, "source": "proposal", "confidence": 0.9, "visibility": 1}
+                for name, (x, y) in NAMED.items()
+            },
+            True,
+        ),
+        ([[20.0 * row, 30.0 * row, 2] for row in range(17)], True),
+        ([[20.0 * row, 30.0 * row, 0.9] for row in range(17)], True),
+        ([[20.0 * row, 30.0 * row, 2] for row in range(16)], False),
+        ([[20.0 * row, 30.0 * row] for row in range(17)], False),
+        ({"left_shoulder": [438]}, False),
+        ({"left_shoulder": [438, 220, 2, 1]}, False),
+        ({"left_shoulder": {"x": 438}}, False),
+        ({"left_shoulder": {"x": 438, "y": 220, "z": 1}}, False),
+        ({"left_shoulder": ["438", "220"]}, False),
+        ({"shoulder": [438, 220]}, False),
+        ("automatic", False),
+        (5, False),
+    ],
+)
+def test_points_are_taken_in_the_forms_that_the_document_names(
+    kind: type[BaseModel], points: object, *, is_right: bool
+):
+    request = POINTS_OF[kind] | {"points": points}
+    schema = {"$ref": f"#/components/schemas/{kind.__name__}"}
+    assert validator(schema, DOCUMENT).is_valid(request) is is_right
+    with nullcontext() if is_right else pytest.raises(ValidationError):
+        kind.model_validate_json(json.dumps(request))
 
 
 def test_every_body_has_an_example_but_those_that_are_no_text():
