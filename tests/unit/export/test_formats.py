@@ -18,7 +18,8 @@ from fitter.applications.named_motions import stride_of
 from fitter.applications.principal_frames import principal_frames
 from fitter.export.formats import FORMATS, converted
 from fitter.observation.pixels import display_from_linear
-from service.api.files import MATERIAL, MESH_FORMATS
+from service.api.files import MATERIAL, MESH_FORMATS, renditions
+from service.jobs.records import StoredBlob
 from tests.unit.applications.bodies import packaged
 from tests.unit.export.known_files import KNOWN, MICROMETRE, coloured, plain, textured
 
@@ -139,6 +140,15 @@ def test_an_stl_has_the_models_triangles_in_its_order_in_metres(name):
 
 def test_what_the_service_offers_is_what_can_be_written():
     assert set(MESH_FORMATS) | set(MATERIAL) == set(FORMATS)
+
+
+def test_what_another_writer_may_write_otherwise_has_another_tag(monkeypatch):
+    stored = {"body.glb": StoredBlob(digest="a", media_type="model/gltf-binary")}
+    before = {name: each.tag for name, each in renditions(stored)}
+    monkeypatch.setattr("service.api.files.VERSION", "another")
+    after = {name: each.tag for name, each in renditions(stored)}
+    assert {name for name in before if before[name] == after[name]} == set(stored)
+    assert len(set(before.values())) == len(before) == 1 + len(MESH_FORMATS)
 
 
 def test_another_process_writes_the_same_bytes(tmp_path):
