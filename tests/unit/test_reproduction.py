@@ -101,6 +101,7 @@ def test_a_table_has_a_row_for_each_pose():
     assert {row.count("|") for row in (heads, *rows)} == {11}
 
 
+@pytest.mark.slow
 def test_the_subject_is_one_on_whom_nothing_was_chosen(tmp_path):
     assert PEOPLE[PERSON].half is Half.REPORTING
     write_subject(tmp_path)

@@ -71,6 +71,7 @@ def test_a_heavy_person_gets_heavier_and_a_thin_one_thinner(body):
         assert abs(more) > 0.003
 
 
+@pytest.mark.slow
 def test_the_largest_factor_named_is_accepted_and_little_more_is_not(body):
     value = -2.5
     shape = person(body, c1=value, c4=0.5)
@@ -106,6 +107,7 @@ def test_looks_are_all_coefficients_but_the_height(body, factor):
     )
 
 
+@pytest.mark.slow
 def test_the_largest_factor_of_looks_is_accepted_and_little_more_is_not(body):
     shape = person(body, c1=2.0, c2=1.0, c3=-1.0)
     largest = largest_factor(refusal(lambda: caricature_of_looks(body.evaluator, shape, 50.0)))

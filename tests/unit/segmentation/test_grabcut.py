@@ -75,6 +75,7 @@ def test_a_narrow_gap_between_the_legs_of_a_large_figure_stays_open():
     assert found.mask[gap].mean() < 0.1
 
 
+@pytest.mark.slow
 def test_the_masks_of_rendered_people_are_as_true_as_opencvs():
     ours, theirs = [], []
     for each in map(rendered_picture, PICTURES):

@@ -113,6 +113,7 @@ if os.path.exists(os.environ["PYTHON_FAULT"]):
 """
 
 
+@pytest.mark.slow
 def test_a_server_that_dies_time_after_time_is_not_waited_for_until_it_lives(tmp_path):
     (tmp_path / "dies_if_told.py").write_text(DIES_IF_TOLD)
     (tmp_path / "program.py").write_text(DYING)

@@ -197,6 +197,7 @@ def test_the_right_ring_is_the_left_ones_mirror_and_other_groups_stay():
     assert groups["joint-l-ankle"] == [2]
 
 
+@pytest.mark.slow
 @needs_makehuman
 @pytest.mark.parametrize(("gender", "height"), [("female", 0.2), ("male", 0.8)])
 def test_short_and_tall_peoples_knees_are_in_the_middle_of_their_legs(gender: str, height: float):

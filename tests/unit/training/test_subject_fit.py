@@ -122,6 +122,7 @@ def test_a_bodys_own_measurements_are_found_again(workshop: Workshop):
     assert (found <= workshop.space.upper).all()
 
 
+@pytest.mark.slow
 @needs_makehuman
 def test_a_population_begins_with_the_shorter_one_and_meets_its_measurements(workshop: Workshop):
     one = solve_population(workshop, 1, seed=11)
@@ -133,6 +134,7 @@ def test_a_population_begins_with_the_shorter_one_and_meets_its_measurements(wor
     assert np.median(np.abs(two.reached - two.wanted) / workshop.statistics.deviation) < 0.05
 
 
+@pytest.mark.slow
 @needs_makehuman
 def test_a_population_is_kept_without_its_vertices_and_comes_back_with_them(
     workshop: Workshop, tmp_path: Path

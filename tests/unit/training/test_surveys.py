@@ -249,6 +249,7 @@ def test_a_definition_that_measures_elsewhere_shows():
     assert figures.mean_differences[hip] == pytest.approx(2.0 / 7.59, abs=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gender", ["female", "male"])
 def test_the_shipped_models_people_measure_as_the_surveys_do(gender: str):
     model = load_body_model(packaged_model_path(gender))

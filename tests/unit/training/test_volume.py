@@ -151,6 +151,7 @@ def gains(each: BodyModel) -> np.ndarray:
     )
 
 
+@pytest.mark.slow
 def test_bodies_that_were_asked_for_keep_their_volume():
     before, after = (np.sqrt(np.mean(gains(each) ** 2)) for each in (model(), learned()))
     assert before > 0.005
@@ -173,6 +174,7 @@ def test_bodies_at_rest_and_all_else_of_the_model_stay():
     np.testing.assert_allclose(at_rest, model().mean_vertices, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_the_same_draws_give_the_same_model():
     few = [
         with_volume_learned(model(), np.random.default_rng(1), samples=3).pose_feature_strengths
