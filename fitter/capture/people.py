@@ -75,10 +75,7 @@ def nobody_else(capture: Capture) -> Remark | None:
 
 
 def _faces(capture: Capture) -> list[DetectedFace]:
-    """Faces at the person's head but for those of others who were found.
-
-    In 174 pictures of one person there is one at most (tuning half, bodies by another maker).
-    """
+    """Faces about the person's head but for those of others who were found."""
     if capture.body is None:
         return []
     noses = [

@@ -107,7 +107,7 @@ class DetectedBody:
     mask
         (h, w) probability that a pixel shows the person.
     faces
-        Seen about the head, the most certain first.
+        Seen for certain about the head, the most certain first.
     hides_face
         Whether the person is seen from the front, and their face is not, for something covers it.
     """

@@ -91,9 +91,9 @@ FACE_INPUT_SIZE = 128
 FACE_STRIDES = (8, 16, 16, 16)
 FACE_KEYPOINTS, NOSE_TIP = 6, 2
 
-FACE_CROP = 0.65
-"""Side of the square about a head in which faces are looked for, of the radius of the circle around
-the person: a third of the stature."""
+FACE_CROPS = (0.65, 1.0)
+"""Sides of the squares about a head in which faces are looked for, of the radius of the circle
+around the person: a third of the stature for their own; in half of it faces beside them fit too."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -113,11 +113,10 @@ class FaceDetector:
     def faces(
         self,
         picture: UInt8[np.ndarray, "h w 3"],
-        person: DetectedPerson,
         head: Float[np.ndarray, "2"],
+        side: float,
     ) -> tuple[DetectedFace, ...]:
-        """Faces about a person's head in a picture (sRGB), the most certain first."""
-        side = FACE_CROP * person.radius
+        """Faces in a square about a head in a picture (sRGB), the most certain first."""
         crop = SquareCrop(centre=head, side=side, angle=0.0, size=FACE_INPUT_SIZE)
         found = _sightings(self._network, picture, crop, FACE_STRIDES, FACE_KEYPOINTS)
         return tuple(

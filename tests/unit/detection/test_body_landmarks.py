@@ -25,6 +25,7 @@ def answering(
     world: dict[int, tuple[float, float, float]] | None = None,
     heat: np.ndarray | None = None,
     mask: np.ndarray | None = None,
+    faces: Callable[[np.ndarray], Outputs] | None = None,
 ) -> LandmarkNetwork:
     """Says the same of a picture and of its mirror image."""
 
@@ -44,10 +45,12 @@ def answering(
             (1,): np.array([0.9]),
         }
 
-    return LandmarkNetwork(FakeNetwork(answer), FaceDetector(FakeNetwork(faces(0.0))))
+    return LandmarkNetwork(
+        FakeNetwork(answer), FaceDetector(FakeNetwork(faces or face_in_the_middle(0.0)))
+    )
 
 
-def faces(certainty: float) -> Callable[[np.ndarray], Outputs]:
+def face_in_the_middle(certainty: float) -> Callable[[np.ndarray], Outputs]:
     """A face in the middle of whatever is shown, as certain as this."""
 
     def answer(_: np.ndarray) -> Outputs:
@@ -85,7 +88,7 @@ def looking(*sides: float, face: float, cut_off: float = -1.0) -> LandmarkNetwor
             (1,): np.array([0.9]),
         }
 
-    return LandmarkNetwork(FakeNetwork(answer), FaceDetector(FakeNetwork(faces(face))))
+    return LandmarkNetwork(FakeNetwork(answer), FaceDetector(FakeNetwork(face_in_the_middle(face))))
 
 
 def is_front(network: LandmarkNetwork, **said: bool) -> bool:
@@ -114,6 +117,25 @@ def seen(network: LandmarkNetwork, *, rim: tuple[float, float] = (200.0, 97.6)) 
     """Of a person at (200, 200) whose crop is as large as the network's input."""
     person = DetectedPerson(score=0.9, middle=np.array([200.0, 200.0]), rim=np.array(rim))
     return network.landmarks(np.zeros((400, 400, 3), dtype=np.uint8), person)
+
+
+def test_the_face_of_somebody_beside_is_looked_for_farther_out_than_the_person_s_own():
+    def answer(picture: np.ndarray) -> Outputs:
+        found = dict(face_in_the_middle(0.9)(picture))
+        if picture.max() > 0.0:
+            found[896, 1][1], found[896, 16][1] = found[896, 1][0], found[896, 16][0]
+            # Both anchors share a place; their boxes do not overlap.
+            found[896, 16][:2, 0], found[896, 16][:2, 2:4] = (-20.0, 40.0), 20.0
+        return found
+
+    network = answering({}, faces=answer)
+    picture = np.zeros((400, 400, 3), dtype=np.uint8)
+    person = DetectedPerson(score=0.9, middle=np.array([200.0, 200.0]), rim=np.array([200.0, 97.6]))
+    assert len(network.landmarks(picture, person).faces) == 1
+    picture[60:84, 240:248] = 255  # 40 to 48 pixels from the head; half a square is 33 or 51
+    assert len(network.landmarks(picture, person).faces) == 2
+    unsure = answering({}, faces=face_in_the_middle(0.6)).landmarks(picture, person)
+    assert (unsure.faces, unsure.face) == ((), pytest.approx(0.6))
 
 
 def test_mirrored_twice_every_landmark_is_itself():
