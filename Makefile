@@ -23,7 +23,7 @@ VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := -p tests.annotations --jaxtyping-packages=fitter,tests.annotations.checked
 
-.PHONY: demo setup test test-rest test-shapes test-others lint serve train report openapi examples docs page client wheel image audit release lock clean
+.PHONY: demo setup test test-rest test-shapes test-others test-long lint serve train report openapi examples docs page client wheel image audit release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -42,6 +42,12 @@ test-shapes: $(STAMP)
 # All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)
 	$(PYTEST) -m "not shapes"
+
+# What other runs do in part, at length: cases of the contract, damaged inputs, killed processes.
+test-long: $(STAMP)
+	CONTRACT_EXAMPLES=50 $(SINGLE_THREADED) $(VENV)/bin/python -m pytest tests/contract/test_schemathesis.py
+	$(VENV)/bin/python -m tests.fuzz
+	$(VENV)/bin/python -m tests.chaos
 
 lint: $(PACKAGES)
 	$(VENV)/bin/ruff check .

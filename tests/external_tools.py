@@ -1,7 +1,10 @@
-"""Programs of others that a test needs: found, or the test is skipped with what to install."""
+"""Programs and packages of others that a test needs: found or installed, or the test is skipped."""
 
+import fcntl
+import os
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -19,3 +22,22 @@ def printed(*command: str) -> str:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
+
+
+def installed(folder: Path) -> Path:
+    """Install the locked packages unless they are there; skip where that cannot be done."""
+    npm = shutil.which("npm")
+    if npm is None or shutil.which("node") is None:
+        pytest.skip("node and npm are not installed")
+    stamp = folder / "node_modules" / ".package-lock.json"
+    with (folder / "package-lock.json").open() as lock:
+        # Tests of two processes may come for the same packages at once.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if stamp.exists() and stamp.stat().st_mtime >= os.fstat(lock.fileno()).st_mtime:
+            return folder
+        done = subprocess.run([npm, "ci"], cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        if os.environ.get("CI"):
+            pytest.fail(done.stderr)
+        pytest.skip(f"npm cannot install here: {done.stderr.strip()[-200:]}")
+    return folder

@@ -1,9 +1,4 @@
-"""A wheel in an environment of its own, with what it says it needs and nothing else.
-
-The wheel is installed by pip. Its dependencies, and theirs, are found out as pip would: from the
-requirements that each states. They are linked file by file from the environment of the tests, so
-that nothing is downloaded; what no requirement leads to is not there.
-"""
+"""A wheel, built and installed in an environment of its own, with what it says it needs alone."""
 
 import os
 import subprocess
@@ -17,6 +12,20 @@ from zipfile import ZipFile
 from packaging.metadata import parse_email
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+
+
+def built(source: Path, kind: str, folder: Path) -> Path:
+    """Build a ``wheel`` or an ``sdist`` of a source tree into a folder that is empty."""
+    done = subprocess.run(
+        [sys.executable, "-m", "hatchling", "build", "--target", kind, "--directory", folder],
+        cwd=source,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    (distribution,) = folder.iterdir()
+    return distribution
 
 
 @dataclass(frozen=True)

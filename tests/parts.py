@@ -15,9 +15,8 @@ QUICK = (
 
 LONGEST = (
     "contract/test_schemathesis.py",
-    "integration/test_training_command.py",
+    "integration/test_training.py",
     "e2e/test_installed_wheel.py",
-    "integration/test_own_bodies.py",
     # With the folders after them, whose other files use the same services.
     "e2e/page/test_products.py",
     "e2e/test_readme.py",

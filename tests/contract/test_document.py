@@ -13,8 +13,9 @@ from pydantic import BaseModel, ValidationError
 from api_schemas.jobs import EventData
 from api_schemas.picture import ViewRequest
 from api_schemas.questions import InitialPoseRequest, PointsRequest
+from service.api.app import openapi_text
 from service.api.events import ITEMS
-from tests.contract.document import exported, media_types, operations, validator, whole
+from tests.contract.document import EXPORTED, exported, media_types, operations, validator, whole
 
 DOCUMENT = whole(exported())
 OPERATIONS = list(operations(DOCUMENT))
@@ -159,6 +160,17 @@ def test_every_operation_says_how_it_ends(operation):
     assert all(answer["description"] for answer in operation.content["responses"].values())
     assert operation.content["summary"]
     assert operation.content["description"]
+
+
+def test_the_exported_document_is_up_to_date():
+    assert EXPORTED.read_text() == openapi_text(), "run `make openapi`"
+
+
+def test_every_error_of_every_operation_is_a_problem():
+    for operation in OPERATIONS:
+        for status, answer in operation.content["responses"].items():
+            if int(status) >= 400:
+                assert list(answer["content"]) == ["application/problem+json"], operation
 
 
 def test_parameters_are_left_out_and_never_null():

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.contract.document import EXPORTED, Document, exported
-from tests.npm_packages import installed
+from tests.external_tools import installed
 
 pytestmark = pytest.mark.slow  # npm installs them
 

@@ -1,10 +1,11 @@
-"""Schemathesis, with all its checks, against the running service: API, worker, estimators.
+"""The service is as its document says: by schemathesis with all its checks, and by examples.
 
 The service asks for keys: its document, read as saying so, has schemathesis repeat what succeeded
 without a key and with a wrong one, and expect a refusal. ``CONTRACT_EXAMPLES=10`` sends so many
 random cases for each operation in place of the few of every run.
 """
 
+import copy
 import json
 import os
 import re
@@ -17,11 +18,13 @@ import pytest
 
 from service.api.auth import OPEN
 from service.api.events import ITEMS
+from service.api.openapi import recorded_examples
 from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing
 from service.settings import Settings
 from tests.contract.acceptable import ACCEPTED, UPLOADED
 from tests.contract.document import METHODS, Document, media_types, operations, whole
+from tests.contract.recording import differences, recorded_from_service
 from tests.integration.service.harness import (
     REPOSITORY,
     Machine,
@@ -33,8 +36,8 @@ from tests.integration.service.harness import (
 pytestmark = pytest.mark.slow
 
 CONFIG = Path(__file__).with_name("schemathesis.toml")
-FEWEST_CASES = 1_200
-EXAMPLES = os.environ.get("CONTRACT_EXAMPLES", "2")
+FEWEST_CASES = 700
+EXAMPLES = os.environ.get("CONTRACT_EXAMPLES", "1")
 """Random cases of each operation, and of ways from one to the next."""
 
 KEYS: dict[str, object] = {"authentication": "keys", "requests_per_minute": 1_000_000}
@@ -134,3 +137,18 @@ def _estimates(service: Service) -> bool:
 
 def _summary(output: str) -> str:
     return output[output.find("SUMMARY") :]
+
+
+def test_the_examples_are_what_a_service_answers(tmp_path: Path):
+    recorded = recorded_from_service(tmp_path)
+    assert differences(recorded, recorded_examples()) == [], "run `make examples openapi`"
+
+
+def test_an_example_that_is_no_answer_would_be_noticed():
+    shown = recorded_examples()
+    other = copy.deepcopy(dict(shown))
+    fit = other["answers"]["get_fit"]["200"]
+    fit["succeeded"]["state"] = "failed"
+    del fit["running"]["label"]
+    other["answers"]["list_fits"]["200"]["first-page"]["fits"].clear()
+    assert len(differences(json.loads(json.dumps(other)), shown)) == 3

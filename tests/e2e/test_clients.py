@@ -15,7 +15,7 @@ import pytest
 from fitter.vocabulary.points import COCO_POINT_NAMES
 from tests.contract.document import EXPORTED
 from tests.e2e.service import REPOSITORY, fits
-from tests.npm_packages import installed
+from tests.external_tools import installed
 
 CLIENTS = REPOSITORY / "tests" / "clients"
 DEMO = REPOSITORY / "service" / "demo_data"
@@ -52,18 +52,16 @@ def check(output: str, request: str, *, views: list[str | None]) -> None:
     assert found["erased"] == [204] * (2 + len(views))
 
 
-def check_both(service: httpx.Client, *client: str | Path, cwd: Path) -> None:
-    """Have a client fit the sample and the pair; nothing is left of them."""
+def check_erased(
+    service: httpx.Client, *client: str | Path, given: list[str], views: list[str | None], cwd: Path
+) -> None:
+    """Have a client fit pictures; nothing is left of them."""
     before = fits(service)
-    fitted, measured = (run(*client, service.base_url, *each, cwd=cwd) for each in (SAMPLE, PAIR))
-    check(fitted, SAMPLE[0], views=[None])
-    check(measured, PAIR[0], views=["front", "side"])
+    check(run(*client, service.base_url, *given, cwd=cwd), given[0], views=views)
     assert fits(service) == before
 
 
-def test_a_generated_python_client_fits_the_sample_and_measures_the_pair(
-    service: httpx.Client, tmp_path: Path
-):
+def test_a_generated_python_client_measures_the_pair(service: httpx.Client, tmp_path: Path):
     written = run(
         *(TOOLS / "openapi-python-client", "generate", "--meta", "none"),
         *("--path", EXPORTED, "--output-path", tmp_path / "maquette_client"),
@@ -74,7 +72,8 @@ def test_a_generated_python_client_fits_the_sample_and_measures_the_pair(
     shutil.copy(CLIENTS / "python" / "fit.py", tmp_path)
     # The use of what was generated; the generator's own code would not pass.
     run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", cwd=tmp_path)
-    check_both(service, sys.executable, "fit.py", cwd=tmp_path)
+    client = (sys.executable, "fit.py")
+    check_erased(service, *client, given=PAIR, views=["front", "side"], cwd=tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -82,7 +81,7 @@ def node_modules() -> Path:
     return installed(CLIENTS / "typescript") / "node_modules"
 
 
-def test_a_generated_typescript_client_fits_the_sample_and_measures_the_pair(
+def test_a_generated_typescript_client_fits_the_sample(
     service: httpx.Client, node_modules: Path, tmp_path: Path
 ):
     for name in ("fit.ts", "tsconfig.json", "package.json"):
@@ -91,7 +90,7 @@ def test_a_generated_typescript_client_fits_the_sample_and_measures_the_pair(
     tools = node_modules / ".bin"
     run(tools / "openapi-typescript", EXPORTED, "--output", "schema.d.ts", cwd=tmp_path)
     run(tools / "tsc", cwd=tmp_path)
-    check_both(service, "node", "built/fit.js", cwd=tmp_path)
+    check_erased(service, "node", "built/fit.js", given=SAMPLE, views=[None], cwd=tmp_path)
 
 
 def test_a_client_of_a_generator_that_knows_one_content_type_uploads_the_picture_first(

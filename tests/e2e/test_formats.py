@@ -15,7 +15,7 @@ from tests.e2e.service import REPOSITORY, ended_job
 
 SAMPLE = REPOSITORY / "service" / "demo_data"
 MICROMETRE = 1e-6
-BODIES = ("views/0/body_posed", "body_canonical", "views/0/body_posed_se", "body_canonical_se")
+BODIES = ("views/0/body_posed", "body_canonical")
 
 
 @pytest.fixture(scope="module")
@@ -87,17 +87,3 @@ def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
     read = trimesh.load_mesh(tmp_path / "body_textured.obj", process=False)
     assert same(read.triangles, posed[triangles])
     assert read.visual.material.image.size == (512, 512)
-
-
-def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client, fit):
-    job = ended_job(client, client.post(fit["links"]["products"], json={"kind": "animation"}))
-    files = f"{job['links']['self']}/files"
-    read = {
-        name: plyfile.PlyData.read(io.BytesIO(client.get(f"{files}/{name}.ply").content))["vertex"]
-        for name in ("body_animated", "body_skinned")
-    }
-    exact, skinned = (np.column_stack([vertex[axis] for axis in "xyz"]) for vertex in read.values())
-    assert exact[:, 1].min() == pytest.approx(0.0, abs=0.01)
-    result = job["result"]
-    away = np.linalg.norm(exact - skinned, axis=1).max()
-    assert 1e3 * away <= result["skin_largest_error_mm"] + 0.1

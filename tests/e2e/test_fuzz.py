@@ -5,7 +5,7 @@ from pathlib import Path
 from tests.deployment import Deployment
 from tests.fuzz.run import fuzz
 
-INPUTS = 400
+INPUTS = 150
 SEED = 1859
 
 

@@ -17,14 +17,12 @@ import pytest
 from api_schemas.results import FitResult
 from service.version import VERSION
 from tests.contract.document import EXPORTED
-from tests.distributions import built
 from tests.e2e.service import (
     REPOSITORY,
-    ended_job,
     started_service,
     wait_until_ready,
 )
-from tests.installation import Installation, installed
+from tests.installation import Installation, built, installed
 
 pytestmark = pytest.mark.slow
 
@@ -95,18 +93,6 @@ def test_the_page_comes_with_its_scripts_samples_and_the_documentation(service: 
     for path in [*needed, *samples, "/docs", "/docs/swagger-ui-bundle.js"]:
         assert service.get(path).raise_for_status().content, path
     assert service.get("/openapi.json").json() == json.loads(EXPORTED.read_text())
-
-
-def test_a_sample_of_the_page_is_fitted_over_http_and_printed(service: httpx.Client):
-    picture = service.get("/page/woman.jpg").content
-    request = service.get("/page/woman.json").content
-    form = {"image": ("woman.jpg", picture), "request": ("request.json", request)}
-    fit = ended_job(service, service.post("/v1/fits", files=form))
-    assert fit["state"] == "succeeded", fit["problem"]
-    asked = service.post(fit["links"]["products"], json={"kind": "print"})
-    page = ended_job(service, asked)
-    assert page["state"] == "succeeded", page["problem"]
-    assert service.get(page["links"]["files"]["print.html"]).text.startswith("<!doctype html>")
 
 
 def test_the_demo_and_a_fit_without_a_service_leave_their_files(

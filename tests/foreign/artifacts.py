@@ -1,17 +1,31 @@
-"""Every mesh file that leaves the service: of a fit of two pictures, and of what is made of it.
+"""Every mesh file that leaves the service, made once for all tests of a run, and what each shows.
 
-And of a fit of the sample alone, which the documents' examples draw.
-
-Made once for all tests of a run, by the pipeline that the workers run, and kept as files, because
-that is what foreign readers open.
+Of a fit of two pictures, of what is made of it, and of a fit of the sample alone, which the
+documents' examples draw. They are made by the pipeline that the workers run, and kept as files,
+because that is what foreign readers open. What they are to show follows from the parameters of
+results and from no reader of files: axes of the file, metres. Of an animation the body is the exact
+SCAPE body of three frames.
 """
 
 import fcntl
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from api_schemas.fit import FitRequest
+from fitter.applications.motion import grounded, motion_of_cycle, moving_body
+from fitter.applications.named_motions import stride_of
+from fitter.applications.poses import rig_of
+from fitter.arrays import Vertices
+from fitter.fits.equipment import PreparedModel, prepared_model
+from fitter.parameters import BodyParameters, CameraTilt
+from fitter.person.upright import upright_frame, upright_turn
+from fitter.vocabulary.choices import Gender
 from service.compute.pipeline import fit_task, product_task
 from service.compute.tasks import OPTIONS, ChildSetup
 from service.demo_data.sample import FOLDER, load_sample
@@ -84,3 +98,151 @@ def _products(
     for name, asked in asked_of.items():
         parts = {OPTIONS: json.dumps(asked).encode(), **product_inputs(there)}
         yield name, product_task(SETUP, parts, lambda _: None)
+
+
+ROUNDING_M = 2e-5
+"""Files hold single precision; parameters lie some metres from the origin."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Shown:
+    """What a reader is to find.
+
+    ``frames`` are the bodies at the beginning, the middle and the end; one where nothing moves.
+    ``tolerance_m`` bounds how far any vertex may be from there.
+    """
+
+    frames: tuple[Vertices, ...]
+    vertices: int
+    triangles: int
+    tolerance_m: float = ROUNDING_M
+    cameras: int = 0
+    texture: bool = False
+    morph_targets: int = 0
+    bones: int = 0
+
+    def agrees(self, low: Iterable[float], high: Iterable[float], *, frame: int = 0) -> bool:
+        """Whether a bounding box is that of a frame's body."""
+        body = self.frames[frame]
+        box = np.array([body.min(axis=0), body.max(axis=0)])
+        found = np.array([list(low), list(high)], dtype=float)
+        return bool(np.abs(found - box).max() <= self.tolerance_m)
+
+
+def shown_by(name: str, files: Path) -> Shown:
+    """What the file of :data:`tests.foreign.artifacts.GLB_FILES` is to show."""
+    return _SHOWN[name](_Results(files))
+
+
+class _Results:
+    """Result documents of the fit and of its products."""
+
+    def __init__(self, files: Path) -> None:
+        self._files = files
+        gender = Gender(self.of("fit")["gender"])
+        self.fitted: PreparedModel = _prepared(gender)
+        self.model = self.fitted.operators.model
+        self.evaluator = self.fitted.operators.evaluator
+
+    def of(self, folder: str) -> Mapping[str, Any]:
+        return json.loads((self._files / folder / "result.json").read_text())
+
+    def first(self) -> Mapping[str, Any]:
+        """The person in the first picture."""
+        return self.of("fit")["views"][0]
+
+    def shown(self, *frames: Vertices, **more: Any) -> Shown:
+        counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
+        return Shown(frames=frames, **(counts | more))
+
+    def posed(
+        self, body: Mapping[str, Any], tilt: Mapping[str, Any] | None = None, **more: Any
+    ) -> Shown:
+        """A body under its camera, by default that of the first picture, upright."""
+        parameters = _parameters(body)
+        vertices = self.evaluator.vertices(parameters)
+        world = upright_frame(
+            _tilt(tilt or self.first()["tilt"]), vertices=vertices, root=parameters.translation
+        )
+        return self.shown(world.points(vertices), cameras=1, **more)
+
+    def in_view(self, number: int) -> Shown:
+        view = self.of("fit")["views"][number]
+        return self.posed(view["body"], view["tilt"])
+
+    def textured(self, **more: Any) -> Shown:
+        corners = len(self.model.uv)
+        return self.posed(self.first()["body"], vertices=corners, texture=True, **more)
+
+    def dressed(self, shown: Shown) -> Shown:
+        """The same in the picture's colours, which cut the skin."""
+        return replace(shown, vertices=len(self.model.uv), texture=True)
+
+    def canonical(self, shape: Iterable[float]) -> Shown:
+        return self.shown(_standing(self.fitted.measuring.canonical.at(np.array(list(shape)))))
+
+    def upright(self, body: BodyParameters) -> Shown:
+        return self.shown(_standing(self.evaluator.body_frame_vertices(body)))
+
+    def turned_upright(self, body: BodyParameters) -> Shown:
+        """Upright as the picture has it."""
+        turn = upright_turn(_tilt(self.first()["tilt"]))
+        return self.shown(_standing(self.evaluator.body_frame_vertices(body) @ turn.T))
+
+    def animated(self, *, error: str, **more: Any) -> Shown:
+        """The walk that ships with the package, by exact SCAPE."""
+        shape = np.array(self.first()["body"]["shape"])
+        rig = rig_of(self.model, shape)
+        motion = motion_of_cycle(stride_of(rig), rig)
+        body = grounded(moving_body(self.evaluator, shape, motion), self.model)
+        last = len(body.shapes) - 1
+        stated_m = 1e-3 * self.of("animation")[error]
+        frames = tuple(body.vertices(frame) for frame in (0, last // 2, last))
+        return self.shown(*frames, tolerance_m=stated_m + ROUNDING_M, **more)
+
+
+@cache
+def _prepared(gender: Gender) -> PreparedModel:
+    return prepared_model(gender, models=None)
+
+
+def _parameters(body: Mapping[str, Any]) -> BodyParameters:
+    return BodyParameters(
+        pose=np.array(list(body["pose"].values())),
+        translation=np.array(body.get("translation_m", np.zeros(3))),
+        shape=np.array(body["shape"]),
+    )
+
+
+def _tilt(found: Mapping[str, Any]) -> CameraTilt:
+    return CameraTilt(
+        pitch=np.radians(found["pitch_deg"]),
+        roll=np.radians(found["roll_deg"]),
+        covariance=np.eye(2),
+        stances={},
+    )
+
+
+def _standing(vertices: Vertices) -> Vertices:
+    return vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
+
+
+_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
+    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["shape"]),
+    "fit/views/0/body_posed.glb": lambda r: r.in_view(0),
+    "fit/views/1/body_posed.glb": lambda r: r.in_view(1),
+    "texture/body_textured.glb": lambda r: r.textured(),
+    "albedo_texture/body_textured.glb": lambda r: r.textured(),
+    "pose/body_reposed.glb": lambda r: r.dressed(
+        r.upright(_parameters(r.of("pose") | {"shape": r.first()["body"]["shape"]}))
+    ),
+    "animation/body_animated.glb": lambda r: r.dressed(
+        r.animated(error="morph_largest_error_mm", morph_targets=r.of("animation")["morph_targets"])
+    ),
+    "animation/body_skinned.glb": lambda r: r.dressed(
+        r.animated(error="skin_largest_error_mm", bones=len(r.model.part_names))
+    ),
+    "caricature/body_caricature.glb": lambda r: r.turned_upright(
+        _parameters(r.first()["body"] | {"shape": r.of("caricature")["shape"]})
+    ),
+}

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.external_tools import installed
 from tests.foreign.artifacts import made_in
-from tests.npm_packages import installed
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ from fitter.fits.equipment import prepared_model
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.rasterizer import render
 from service.demo_data.sample import FOLDER
-from tests.e2e.page.browser import chromium
+from tests.e2e.page.visitor import chromium
 from tests.integration.service.harness import eventually
 from tests.readme import block
 

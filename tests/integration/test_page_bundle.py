@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.npm_packages import installed
+from tests.external_tools import installed
 
 REPOSITORY = Path(__file__).parents[2]
 PAGE = REPOSITORY / "service" / "page"

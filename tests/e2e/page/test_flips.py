@@ -5,11 +5,8 @@ import re
 import numpy as np
 from playwright.sync_api import Page, Request, expect
 
-from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.test_result import as_if, open_fit
-from tests.e2e.page.visitor import SAMPLE_POINTS, SAMPLE_SIZE, Visitor
-
-__all__ = ("axe",)
+from tests.e2e.page.visitor import SAMPLE_POINTS, SAMPLE_SIZE, Visitor, serious_findings
 
 OTHER = {"toward": "away", "away": "toward"}
 SAYS = {"toward": "toward you", "away": "away from you"}

@@ -1,4 +1,4 @@
-"""On a phone, by a screen reader, in the dark, with a key, and when something is wrong."""
+"""On a phone, by a screen reader, in the dark, with a key; what is announced, asked and shown."""
 
 import io
 import subprocess
@@ -8,30 +8,12 @@ from pathlib import Path
 import httpx
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Frame, Page, expect
+from playwright.sync_api import Browser, expect
 
-from tests.e2e.page.visitor import LIMBS, PHONE, Visitor
+from fitter.vocabulary.remarks import Code
+from tests.e2e.page.visitor import LIMBS, PHONE, Visitor, serious_findings
 from tests.e2e.service import REPOSITORY, running_service, wait_for_estimator
-from tests.npm_packages import installed
-
-AXE = REPOSITORY / "service" / "page" / "node_modules" / "axe-core" / "axe.min.js"
-
-
-@pytest.fixture(scope="module")
-def axe() -> str:
-    installed(REPOSITORY / "service" / "page")
-    return AXE.read_text()
-
-
-def serious_findings(page: Page | Frame, axe: str) -> list[str]:
-    page.evaluate(axe)
-    found = page.evaluate("axe.run(document)")
-    return [
-        f"{finding['id']}: {node['html'][:200]}"
-        for finding in found["violations"]
-        if finding["impact"] in {"serious", "critical"}
-        for node in finding["nodes"]
-    ]
+from tests.illustrations.measuring_sheet import WITHOUT_EXAMPLE
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -180,3 +162,113 @@ def test_another_picture_without_a_lens_in_it_is_said_so(visitor: Visitor, tmp_p
     expect(page.get_by_text("The picture names none: 50 mm are assumed.")).to_be_visible()
     page.get_by_label("Focal length, as on 35 mm film").fill("4.4")
     expect(page.get_by_text("Chosen by eye.")).to_be_visible()
+
+
+def test_the_last_click_is_not_told_on_the_next_screen(visitor: Visitor, finished_fit: str):
+    page = visitor.page
+    visitor.open_sample()
+    visitor.click_points(("left_shoulder",))
+    region = page.locator("#page > p[role=status]")
+    expect(region).to_contain_text("Left shoulder placed.")
+    page.evaluate(f"location.hash = '#/fits/{finished_fit}'")
+    visitor.wait_for_result()
+    expect(region).to_be_empty()
+    page.get_by_role("link", name="New").click()
+    page.get_by_role("link", name="Go on with sample.jpg").click()
+    visitor.wait_for_stage()
+    expect(region).to_be_empty()
+
+
+def test_escape_leaves_the_question_whether_to_delete(visitor: Visitor, finished_fit: str):
+    page = visitor.page
+    page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+    visitor.wait_for_result()
+    asker = page.get_by_role("button", name="Delete this fit")
+    asker.click()
+    expect(page.get_by_role("button", name="Keep", exact=True)).to_be_focused()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Delete", exact=True)).to_have_count(0)
+    expect(asker).to_be_focused()
+    # It asks again, and nothing was deleted.
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("button", name="Keep", exact=True)).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(asker).to_be_focused()
+    page.reload()
+    visitor.wait_for_result()
+
+
+FOLLOW = """path => {
+  const { dataset } = document.documentElement;
+  const source = new EventSource(path);
+  dataset.ends = "0";
+  source.addEventListener("end", () => (dataset.ends = String(Number(dataset.ends) + 1)));
+  source.addEventListener("error", () => (dataset.source = String(source.readyState)));
+}"""
+CLOSED = "2"
+
+
+def test_an_event_source_hears_the_end_once_and_lets_go(
+    visitor: Visitor, service: httpx.Client, finished_fit: str
+):
+    events = service.get(f"/v1/fits/{finished_fit}").json()["links"]["events"]
+    visitor.page.evaluate(FOLLOW, events)
+    root = visitor.page.locator("html")
+    expect(root).to_have_attribute("data-source", CLOSED)
+    expect(root).to_have_attribute("data-ends", "1")
+    # One connection brought the events, the other was told that there are no more.
+    assert sum(url.endswith(events) for url in visitor.requests) == 2
+
+
+def test_good_and_bad_pictures_are_shown_on_demand(
+    browser: Browser, service: httpx.Client, axe: str
+):
+    with Visitor.at(browser, str(service.base_url), PHONE | {"color_scheme": "dark"}) as visitor:
+        page = visitor.page
+        tiles = page.locator(".howto-tiles li")
+        expect(tiles).to_have_count(0)
+        with page.expect_response("**/page/measuring_tiles.jpg") as answered:
+            page.get_by_text("For good measurements").click()
+        assert answered.value.status == 200
+        shown = {tile.get_attribute("data-code") for tile in tiles.all()}
+        assert shown == {"good", *(code.value for code in set(Code) - WITHOUT_EXAMPLE)}
+        expect(tiles.filter(has_text="Bad: arms on the body")).to_be_visible()
+        assert serious_findings(page, axe) == []
+        assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
+
+
+NOTE_SIZES = """() => {
+  window.sizes = [];
+  new MutationObserver((mutations) => {
+    for (const { target } of mutations)
+      if (target.matches("canvas")) window.sizes.push([target.width, target.clientWidth]);
+  }).observe(document, { subtree: true, attributeFilter: ["data-shows"] });
+}"""
+NOTE_STAGE = """() => {
+  window.placed = [];
+  new MutationObserver(() => {
+    const stage = document.querySelector('.stage[aria-busy="false"]');
+    if (stage) window.placed.push(stage.querySelector(".stage-picture").style.transform);
+  }).observe(document, { subtree: true, childList: true, attributeFilter: ["aria-busy"] });
+}"""
+
+
+def test_a_canvas_says_what_it_shows_once_it_has_its_size(visitor: Visitor, finished_fit: str):
+    page = visitor.page
+    # The skin, which comes at any time, leaves the body less room.
+    page.route("**/products", lambda route: route.abort())
+    page.evaluate(NOTE_SIZES)
+    page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+    visitor.wait_until_drawn(placement="canonical")
+    sizes = page.evaluate("window.sizes")
+    assert sizes
+    assert all(abs(drawn - seen) <= 1 for drawn, seen in sizes), sizes
+
+
+def test_a_stage_that_is_not_busy_knows_where_its_picture_lies(visitor: Visitor):
+    page = visitor.page
+    page.evaluate(NOTE_STAGE)
+    visitor.open_sample()
+    placed = page.evaluate("window.placed")
+    assert placed
+    assert "scale(1)" not in placed[0]

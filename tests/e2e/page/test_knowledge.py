@@ -1,7 +1,8 @@
-"""What is known beside the clicks: samples with theirs, a tape, a mask, clothes."""
+"""What is known beside the clicks: samples with theirs, a tape, a mask, clothes; in any units."""
 
 import io
 import json
+import re
 from pathlib import Path
 
 import httpx
@@ -86,3 +87,31 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     page.get_by_role("heading", name="What the fit goes by").click()
     expect(page.get_by_text("the mask of that fit is used")).to_be_visible()
     expect(page.get_by_role("radio", name="Loose", exact=True)).to_be_checked()
+
+
+def test_a_fit_in_feet_and_pounds_reaches_its_result(visitor: Visitor):
+    page = visitor.page
+    visitor.open_sample(with_points=True)
+    visitor.choose("ft, lb")
+    height, inches = page.get_by_label("Height", exact=True), page.get_by_label("Height, inches")
+    expect(height).to_have_value("5")
+    expect(inches).to_have_value("11.02")
+    visitor.choose("cm, kg")
+    expect(height).to_have_value("180.4")
+    visitor.choose("ft, lb")
+    inches.fill("")
+    height.fill("5'11")
+    page.get_by_label("Weight", exact=True).fill("170")
+    sent = visitor.sent_request()
+    assert round(sent["height_m"], 4) == 1.8034
+    assert round(sent["weight_kg"], 2) == 77.11
+    visitor.wait_for_result()
+    visitor.wait_until_drawn(placement="canonical")
+    row = page.get_by_role("row", name=re.compile("^Height"))
+    expect(row).to_contain_text("5 ft 11.0 in")
+    expect(page.get_by_role("row", name=re.compile("^Weight"))).to_contain_text("170.0 lb")
+    expect(page.get_by_role("row", name=re.compile("^Hip"))).to_contain_text(" in")
+    visitor.choose("cm, kg")
+    expect(row).to_contain_text("180.3")
+    visitor.choose("in, lb")
+    expect(row).to_contain_text("5 ft 11.0 in")

@@ -2,19 +2,14 @@
 
 import base64
 import io
-from typing import Any
 
 import httpx
 import numpy as np
-import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.page.test_for_everyone import axe, serious_findings
 from tests.e2e.page.test_proposals import WOMAN, drop
-from tests.e2e.page.visitor import DESK, PHONE, STAGE_MARGIN, Visitor
-
-__all__ = ["axe"]
+from tests.e2e.page.visitor import PHONE, STAGE_MARGIN, Visitor, serious_findings
 
 PICTURE_SIZE = (540, 720)
 CORNER, HEART = (60.0, 60.0), (265.0, 270.0)
@@ -179,46 +174,8 @@ def test_the_picture_is_enlarged_and_moved_under_the_brush(visitor: Visitor):
     expect(tools.get_by_role("button", name="Undo the last stroke")).to_be_disabled()
 
 
-def test_a_finger_paints_and_two_zoom(browser: Browser, service: httpx.Client):
-    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
-        page = visitor.page
-        open_brushes(visitor)
-        session = page.context.new_cdp_session(page)
-
-        def touch(kind: str, *at: tuple[float, float]) -> None:
-            points = [{"x": x, "y": y} for x, y in at]
-            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-        x, y = on_mask_stage(visitor, CORNER)
-        touch("touchStart", (x, y))
-        touch("touchMove", (x + 6, y + 4))
-        touch("touchMove", (x + 12, y + 4))
-        touch("touchEnd")
-        wait_for_mask(visitor, CORNER, is_person=True)
-        undo = page.get_by_role("button", name="Undo the last stroke")
-        expect(undo).to_be_enabled()
-        undo.tap()
-        expect(undo).to_be_disabled()
-        picture = page.locator(".mask-stage .stage-picture")
-        box = picture.bounding_box()
-        assert box is not None
-        touch("touchStart", (x + 60, y + 80))
-        touch("touchStart", (x + 60, y + 80), (x + 120, y + 80))
-        for apart in (20, 40, 60):
-            touch("touchMove", (x + 60 - apart, y + 80), (x + 120 + apart, y + 80))
-        touch("touchEnd")
-        visitor.wait_for_width(picture, 1.5 * box["width"])
-        expect(undo).to_be_disabled()
-
-
-@pytest.mark.parametrize(
-    ("device", "scheme"), [(PHONE, "dark"), (DESK, "light")], ids=["phone, dark", "desk, light"]
-)
-def test_axe_finds_nothing_serious_in_masks(
-    browser: Browser, service: httpx.Client, axe: str, scheme: str, device: dict[str, Any]
-):
-    settled = {"color_scheme": scheme}
-    with Visitor.at(browser, str(service.base_url), device, **settled) as visitor:
+def test_axe_finds_nothing_serious_in_masks(browser: Browser, service: httpx.Client, axe: str):
+    with Visitor.at(browser, str(service.base_url), PHONE, color_scheme="dark") as visitor:
         page = visitor.page
         open_brushes(visitor)
         assert serious_findings(page, axe) == []
@@ -227,3 +184,54 @@ def test_axe_finds_nothing_serious_in_masks(
         page.get_by_role("toolbar", name="Mask").get_by_role("button", name="Done").click()
         expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
         assert serious_findings(page, axe) == []
+
+
+def test_in_the_full_screen_one_finger_paints_and_two_move_and_paint_nothing(
+    browser: Browser, service: httpx.Client
+):
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
+        page = visitor.page
+        open_brushes(visitor)
+        before = page.locator(".mask-stage").bounding_box()
+        assert before is not None
+        page.get_by_role("button", name="Fill the screen").tap()
+        page.wait_for_function(
+            "(height) => document.querySelector('.mask-stage').clientHeight > height",
+            arg=before["height"] + 50,
+        )
+        visitor.wait_for_whole_picture()
+        wait_for_mask(visitor, HEART, is_person=True)
+        session = page.context.new_cdp_session(page)
+
+        def touch(kind: str, *at: tuple[float, float]) -> None:
+            points = [{"x": x, "y": y} for x, y in at]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        undo = page.get_by_role("button", name="Undo the last stroke")
+        x, y = on_mask_stage(visitor, CORNER)
+        # The second finger comes late: what the first has painted by then is gone.
+        touch("touchStart", (x - 12, y))
+        touch("touchMove", (x, y))
+        wait_for_mask(visitor, CORNER, is_person=True)
+        touch("touchStart", (x, y), (x + 80, y))
+        wait_for_mask(visitor, CORNER, is_person=False)
+        picture = page.locator(".mask-stage .stage-picture")
+        width = picture.bounding_box()["width"]
+        for apart in (10, 20, 30):
+            touch("touchMove", (x, y), (x + 80 + apart, y))
+        touch("touchEnd")
+        visitor.wait_for_width(picture, 1.2 * width)
+        expect(undo).to_be_disabled()
+        page.get_by_role("button", name="Show the whole picture").tap()
+        visitor.wait_for_width(picture, width - 1, width + 1)
+
+        touch("touchStart", (x - 12, y))
+        touch("touchMove", (x, y))
+        touch("touchEnd")
+        wait_for_mask(visitor, CORNER, is_person=True)
+        expect(undo).to_be_enabled()
+        # Back to the points, which fill the screen too.
+        page.get_by_role("toolbar", name="Mask").get_by_role("button", name="Done").tap()
+        expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
+        expect(page.get_by_role("button", name="Leave the full screen")).to_be_visible()
+        expect(visitor.stage).to_be_focused()

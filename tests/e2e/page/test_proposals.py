@@ -14,10 +14,7 @@ from PIL import Image
 from playwright.sync_api import Browser, Route, expect
 
 from tests.accuracy.files import PICTURES_FOLDER
-from tests.e2e.page.test_for_everyone import axe, serious_findings
-from tests.e2e.page.visitor import DESK, PHONE, Visitor
-
-__all__ = ["axe"]
+from tests.e2e.page.visitor import DESK, PHONE, Visitor, serious_findings
 
 WOMAN = PICTURES_FOLDER / "woman_middle_aged_middling_standing.jpg"
 MAN = PICTURES_FOLDER / "man_middle_aged_middling_standing.jpg"
@@ -240,14 +237,10 @@ def test_without_a_detector_all_is_as_without_proposals(visitor: Visitor):
     assert len(asked) == 1
 
 
-@pytest.mark.parametrize(
-    ("device", "scheme"), [(PHONE, "dark"), (DESK, "light")], ids=["phone, dark", "desk, light"]
-)
 def test_axe_finds_nothing_serious_in_questions_and_people(
-    browser: Browser, service: httpx.Client, axe: str, scheme: str, device: dict[str, Any]
+    browser: Browser, service: httpx.Client, axe: str
 ):
-    settled = {"color_scheme": scheme}
-    with Visitor.at(browser, str(service.base_url), device, **settled) as visitor:
+    with Visitor.at(browser, str(service.base_url), PHONE, color_scheme="dark") as visitor:
         page = visitor.page
         page.route("**/v1/points", doubting("left_ankle"))
         drop(visitor, side_by_side(WOMAN, MAN))

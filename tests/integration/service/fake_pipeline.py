@@ -1,7 +1,8 @@
 """A pipeline that does what the picture tells it: the script is JSON behind a PNG header.
 
 ``gate`` keeps a job from ending until the file of this name exists; ``note_end`` names a file that
-is there once its process has nothing more to do.
+is there once its process has nothing more to do. Results and files are of some kinds, without
+numbers.
 """
 
 import ctypes
@@ -10,15 +11,38 @@ import os
 import struct
 import time
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
 from api_schemas.fit import FitRequest
+from api_schemas.person import Person, UncertainMeasurement
 from api_schemas.problems import FieldProblem
-from api_schemas.products import ProductRequest
+from api_schemas.products import AnyProductOptions, ProductRequest
+from api_schemas.products.base import BodyColours, ProductResult
+from api_schemas.products.bodies import (
+    AnimationOptions,
+    AnimationResult,
+    CaricatureOptions,
+    CaricatureResult,
+    PoseOptions,
+    PoseResult,
+    TextureOptions,
+    TextureResult,
+)
+from api_schemas.products.documents import CompositionOptions, CompositionResult
+from api_schemas.results import (
+    BodyResult,
+    CameraResult,
+    FitResult,
+    Measurement,
+    Stage,
+    ViewResult,
+)
 from api_schemas.service import BodyModelInfo, BodyModels
-from fitter.vocabulary.choices import Gender
+from fitter.vocabulary.choices import Gender, ViewKind
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
+from fitter.vocabulary.remarks import Note, assumed
 from service.compute.tasks import (
     OPTIONS,
     PRODUCT,
@@ -29,11 +53,176 @@ from service.compute.tasks import (
     UnusableInputError,
     with_result_document,
 )
-from service.jobs.inputs import PERSON, RESULT, SentPicture, pictures_of
+from service.jobs.inputs import (
+    BODY,
+    BODY_POSED,
+    CLIP,
+    OVERLAY,
+    PERSON,
+    RESULT,
+    SEGMENTATION,
+    SentPicture,
+    of_view,
+    pictures_of,
+)
 from service.jobs.records import FIT, Report
 from service.settings import Settings
-from tests.integration.service.fake_products import made_product
-from tests.integration.service.fake_results import fit_result, result_files
+
+BODY_RESULT = BodyResult(
+    pose={"pelvis": (0.0, 0.0, 0.0)},
+    translation_m=(0.0, 0.0, 3.0),
+    shape=(0.0, 0.0),
+)
+
+
+def fit_result(asked: FitRequest) -> FitResult:
+    waist = _measurement("waist_girth", 80.0 + len(asked.views[0].points), "cm", 1.0)
+    return FitResult(
+        gender=asked.gender,
+        height_m=asked.height_m or 1.7,
+        cues=asked.cues,
+        optimizer=asked.optimizer,
+        energies={"total": 1.0},
+        evaluations=3,
+        measurements=(waist, *_given(asked)),
+        shape=(0.0, 0.0),
+        verdict=Verdict.PLAUSIBLE,
+        outcome_explanation="The energy stopped decreasing.",
+        agreement=0.5 if len(asked.views) > 1 else None,
+        assumptions=(assumed(Note.HEIGHT_ASSUMED, "Unknown.", where=("height_m",)),),
+        warnings=(),
+        differences=(),
+        stages=(Stage(name="SE", energies={"total": 2.0}, measurements={"waist_girth": 81.0}),),
+        stage_seconds={"observation": 0.1},
+        files=(),
+        views=tuple(_view(each.view) for each in asked.views),
+    )
+
+
+def result_files(images: Sequence[bytes]) -> dict[str, bytes]:
+    files = {"body_canonical.glb": b"glTF" + bytes(range(256)), BODY: b"PNG", PERSON: images[0]}
+    for number, image in enumerate(images):
+        files[of_view(number, BODY_POSED)] = b"glTF" + bytes([number])
+        files[of_view(number, OVERLAY)] = image
+        files[of_view(number, SEGMENTATION)] = b"PNG"
+    return files
+
+
+def _view(kind: ViewKind | None) -> ViewResult:
+    camera = CameraResult(
+        focal_length_px=700.0, centre_x=320.0, centre_y=240.0, width=640, height=480
+    )
+    return ViewResult(
+        view=kind,
+        outcome=Outcome.CONVERGED,
+        verdict=Verdict.PLAUSIBLE,
+        camera=camera,
+        image_camera=camera,
+        focal_length_source=FocalLengthSource.ASSUMED,
+        body=BODY_RESULT,
+        light=None,
+        reflectance=None,
+        silhouette_overlap=0.9,
+        tilt=None,
+        limb_facing=(),
+        findings=(),
+        clothing=(),
+        assumptions=(assumed(Note.LENS_ASSUMED, "Unknown.", where=("focal_length_35mm",)),),
+        warnings=(),
+    )
+
+
+def _given(asked: Person) -> tuple[Measurement, ...]:
+    known = dict(asked.measurements)
+    if asked.weight_kg is not None:
+        known["weight"] = asked.weight_kg
+    return tuple(
+        _measurement(name, each.value, "cm", each.standard_error, given=True)
+        if isinstance(each, UncertainMeasurement)
+        else _measurement(name, each, "kg" if name == "weight" else "cm", 0.0, given=True)
+        for name, each in known.items()
+    )
+
+
+def _measurement(
+    name: str, value: float, unit: str, error: float, *, given: bool = False
+) -> Measurement:
+    return Measurement(
+        name=name,
+        value=value,
+        unit=unit,
+        standard_error=error,
+        low=value - 1.96 * error,
+        high=value + 1.96 * error,
+        given=given,
+        definition="As given." if given else "At the navel.",
+        source="The caller" if given else "ISO 8559-1",
+    )
+
+
+LARGEST_FACTOR = 6.0
+"""Of a caricature."""
+
+
+def made_product(
+    options: AnyProductOptions, parts: Parts
+) -> tuple[ProductResult, dict[str, bytes]]:
+    """What there is to say of the product, and its files."""
+    match options:
+        case CaricatureOptions(factor=factor) if factor > LARGEST_FACTOR:
+            raise UnusableInputError(
+                FieldProblem(
+                    field="factor",
+                    code="factor-unusable",
+                    reason="The surface turns inside out.",
+                    remedy=f"Send a factor from 0 to {LARGEST_FACTOR}.",
+                    largest=LARGEST_FACTOR,
+                )
+            )
+        case CaricatureOptions(factor=factor):
+            result = CaricatureResult(
+                factor=factor,
+                coefficient=1,
+                before=1.5,
+                after=1.5 * factor,
+                height_m=1.8,
+                shape=(0.0, 1.5 * factor),
+            )
+            return result, {"body_caricature.glb": b"glTF"}
+        case TextureOptions(colours=colours, size=size):
+            result = TextureResult(
+                colours=colours,
+                size=size,
+                seen_share=0.4,
+                mirrored_share=0.1,
+                scale=1.0,
+            )
+            return result, {"body_textured.glb": b"glTF", "texture.png": b"PNG"}
+        case AnimationOptions():
+            result = AnimationResult(
+                source=parts.get(CLIP, b"a walk").decode()[:40],
+                frames=2,
+                frame_time_s=0.04,
+                morph_targets=1,
+                morph_mean_error_mm=0.0,
+                morph_largest_error_mm=0.0,
+                skin_mean_error_mm=0.0,
+                skin_largest_error_mm=0.0,
+                sliding_mm=0.0,
+                travelled_m=0.0,
+                warnings=(),
+            )
+            return result, {"body_animated.glb": b"glTF"}
+        case PoseOptions():
+            result = PoseResult(pose={}, colours=BodyColours.PLAIN)
+            return result, {"body_reposed.glb": b"glTF" + bytes(range(256)), "pose.png": b"PNG"}
+        case CompositionOptions():
+            result = CompositionResult(bmi=22.0, estimates=())
+            return result, {"composition.csv": b"name,percent\r\n"}
+        case other:
+            message = f"the fake makes no {other.kind}"
+            raise NotImplementedError(message)
+
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"

@@ -6,25 +6,30 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
 import httpx
 import sqlalchemy as sa
 
+from service.compute.fork_server import ForkServer, end
 from service.jobs.database import open_database
 from service.jobs.tables import JOBS
 from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.fake_processes import command
 from tests.object_storage import variable
 
 PATIENCE_S = 600.0
 """A guard against hanging: passing tests wait for none of it, however crowded the machine."""
 
 REPOSITORY = Path(__file__).parents[3]
+CHANGED_PYTHON = Path(__file__).parent / "changed_python"
+"""What is first on the path of Pythons that lack a module or whose clock is wrong."""
+
 POINTS = {
     "nose": [320.0, 60.0],
     "left_shoulder": [380.0, 120.0],
@@ -120,9 +125,10 @@ class Machine:
         }
         return inherited | variables
 
-    def start(self, module: str, *arguments: str, **options: Any) -> subprocess.Popen[str]:
+    def start(self, *arguments: str, **options: Any) -> subprocess.Popen[str]:
+        """Start one of the service's processes with the fake pipeline."""
         return subprocess.Popen(
-            [sys.executable, "-m", f"tests.integration.service.{module}", *arguments],
+            command(*arguments),
             cwd=REPOSITORY,
             env=self.environment(),
             text=True,
@@ -143,7 +149,7 @@ class Machine:
 @contextlib.contextmanager
 def running_worker(machine: Machine) -> Iterator[subprocess.Popen[str]]:
     """Run a worker of its own; it is killed at the end if it still runs."""
-    process = machine.start("fake_worker", stdin=subprocess.PIPE)
+    process = machine.start("worker", stdin=subprocess.PIPE)
     try:
         yield process
     finally:
@@ -249,7 +255,7 @@ def running_service(
     A ``broken`` estimator ends as soon as it is started; a ``real`` one is the service's own.
     """
     process = machine.start(
-        "fake_serve",
+        "serve",
         *(["--no-worker"] if api_only else []),
         *("--estimator", estimator),
         stdout=subprocess.PIPE,
@@ -275,3 +281,18 @@ def _answers(client: httpx.Client, path: str) -> bool:
         return client.get(path).status_code == 200
     except httpx.TransportError:
         return False
+
+
+def started_anew(server: ForkServer) -> ForkServer:
+    """End the fork server of the tests' process, of which there is one for all test files.
+
+    The next one loads what is asked for, with the variables of now.
+    """
+    connection, process = server.start(_tell_server)
+    os.kill(connection.recv(), signal.SIGKILL)
+    end(connection, process)
+    return server
+
+
+def _tell_server(connection: Connection) -> None:
+    connection.send(os.getppid())

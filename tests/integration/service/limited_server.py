@@ -24,9 +24,6 @@ from service.api.problems import install_problem_handlers
 from tests.integration.service.harness import PATIENCE_S, eventually
 
 SHORT_S = 0.3
-FAIR_S = 2.0
-"""Enough for what is sent at once, also by a machine that is busy."""
-
 LONG_S = 3600.0
 LARGE_BYTES = 50_000_000
 """More than the buffers of both ends hold."""
@@ -74,11 +71,6 @@ def application(
         except ClientDisconnect:
             return PlainTextResponse("for nobody")
 
-    async def held_length(request: Request) -> Response:
-        entered.release()
-        await to_thread.run_sync(released.wait)
-        return await length(request)
-
     async def large(_: Request) -> Response:
         return Response(bytes(LARGE_BYTES))
 
@@ -94,8 +86,8 @@ def application(
     install_problem_handlers(app)
     app.add_middleware(BodyLimits, max_bytes=10**9, time_limit_s=body_s, bytes_per_s=bytes_per_s)
     app.add_middleware(RequestLimit, most=most)
-    for resource in (quick, held, length, held_length, large, stream):
-        path = f"/{resource.__name__.replace('_', '-')}"
+    for resource in (quick, held, length, large, stream):
+        path = f"/{resource.__name__}"
         app.add_route(path, resource, methods=["GET", "POST"])
     return app
 

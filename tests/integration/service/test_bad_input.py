@@ -63,9 +63,6 @@ def post(service: Service, *, image: bytes | None = None, **parts: bytes) -> htt
     ("image", "status", "code"),
     [
         (b"not an image", 415, "not-an-image"),
-        (b"", 422, "empty-upload"),
-        (scripted_image()[:20], 422, "image-damaged"),
-        (scripted_image(width=10_000, height=10_000), 422, "image-too-large"),
         (scripted_image(width=2**31 - 1, height=2**31 - 1), 422, "image-too-large"),
     ],
 )
@@ -79,33 +76,14 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
     ("changes", "field", "code"),
     [
         ({"height_m": 1.1}, "height_m", "out-of-range"),
-        ({"height_m": 2.4}, "height_m", "out-of-range"),
-        ({"height_m": 10**400}, "height_m", "wrong-kind"),
-        ({"measurements": {"stature": 180}}, "height_m", "two-heights"),
-        ({"measurements": {"inseam": 0}}, "measurements.inseam", "out-of-range"),
-        ({"gender": "other"}, "gender", "unknown-value"),
-        (
-            said_of_view(points=POINTS | {"nose": [700, 10]}),
-            "views.0.points.nose",
-            "point-outside-image",
-        ),
-        (said_of_view(points={"nose": [1, 1]}), "views.0.points", "too-few-points"),
         (
             said_of_view(points=POINTS | {"nose": [float("nan"), 1]}),
             "views.0.points.nose.0",
             "not-finite",
         ),
         ({"colour": "red"}, "colour", "unknown-field"),
-        ({"points": POINTS}, "points", "unknown-field"),
-        (said_of_view(light={"kind": "sky"}), "views.0.light.kind", "unknown-value"),
         (said_of_view(image_id="0" * 64), "views.0.image_id", "one-picture-needed"),
-        ({"views": []}, "views", "wrong-length"),
-        ({"views": [{}] * 7}, "views", "wrong-length"),
-        ({"views": [{"view": "front"}, {}]}, "views.1.view", "missing"),
         ({"views": [{"view": "front"}, {"view": "side"}]}, "views", "views-count"),
-        ({"energies": ["edges"]}, "energies", "unknown-field"),
-        ({"paper": {"energies": ["edges", "clicks"]}}, "paper.energies.1", "unknown-value"),
-        ({"paper": {"energies": []}}, "paper.energies", "wrong-length"),
     ],
 )
 def test_a_bad_option_is_refused_at_once(service: Service, changes, field, code):
@@ -113,12 +91,6 @@ def test_a_bad_option_is_refused_at_once(service: Service, changes, field, code)
     assert problem.field == field
     assert problem.code == code
     assert problem.errors[0].field == field
-
-
-def test_a_mask_of_another_size_is_refused_at_once(service: Service):
-    problem = checked(post(service, mask=scripted_image(width=10)), 422)
-    assert problem.field == "views.0.mask"
-    assert problem.code == "mask-size-mismatch"
 
 
 def test_each_fault_of_several_pictures_names_the_picture(service: Service):
@@ -248,6 +220,8 @@ def test_an_upload_above_the_limit_is_refused_declared_or_not(tmp_path):
     machine = Machine(tmp_path, settings={"max_upload_bytes": 1000})
     with running_service(machine, api_only=True) as service:
         assert checked(post(service, image=bytes(3_000_000)), 413).type.endswith("too-large")
+        upload = {"image": ("p.png", bytes(3_000_000), "image/png")}
+        checked(service.client.post("/v1/images", files=upload), 413)
         head = b'--x\r\nContent-Disposition: form-data; name="image"; filename="p"\r\n\r\n'
         chunks = (part for part in [head, *[bytes(100_000)] * 30])
         headers = {"Content-Type": "multipart/form-data; boundary=x"}

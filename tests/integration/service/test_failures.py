@@ -2,7 +2,13 @@
 
 import os
 import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import AbstractContextManager
+from dataclasses import replace
 from pathlib import Path
+
+import pytest
 
 from tests.integration.service.fake_pipeline import UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
@@ -82,27 +88,7 @@ def test_a_fit_past_its_time_limit_is_stopped_and_the_service_when_told_to(tmp_p
         assert job["state"] == "timed_out"
         assert job["problem"]["type"] == "/problems/time-limit-exceeded"
         assert not any(is_running(pid) for pid in pids_noted(note))
-        _stops_cleanly(service, signal.SIGTERM)
-
-
-# On Postgres too: tests.integration.service.test_many_machines and test_chaos.
-def test_a_killed_workers_fit_is_run_again_by_another(embedded: Machine, tmp_path: Path):
-    note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(embedded, api_only=True) as service:
-        with running_worker(embedded) as first:
-            path = service.submit({"gate": str(gate), "note_pid": str(note)})
-            (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
-            first.kill()
-            first.wait()
-        eventually(lambda: not is_running(pid), what="the fit dies with its worker")
-        gate.touch()
-        with running_worker(embedded):
-            job = service.ended(path)
-            assert job["state"] == "succeeded"
-            assert job["attempt"] == 2
-            assert len(pids_noted(note)) == 2
-            ends = [event for event in service.events(path) if event["event"] == "end"]
-            assert len(ends) == 1
+        _stops_cleanly(service, signal.SIGINT)
 
 
 def test_a_worker_restarted_by_its_supervisor_goes_on(service: Service, tmp_path: Path):
@@ -135,64 +121,59 @@ def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_
         assert service.ended(path)["state"] == "canceled"
 
 
-# On either database tests.integration.service.test_chaos does the same at random.
-def test_accepted_jobs_survive_the_death_of_the_service(embedded: Machine):
-    with running_service(embedded, api_only=True) as service:
-        paths = [service.submit() for _ in range(5)]
-        service.process.kill()
-        service.process.wait()
-    with running_service(embedded) as service:
-        assert [service.ended(path)["state"] for path in paths] == ["succeeded"] * 5
-        _stops_cleanly(service, signal.SIGINT)
+@pytest.fixture(scope="module")
+def api(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """An API whose workers are the tests' own."""
+    machine = Machine(tmp_path_factory.mktemp("api"))
+    with running_service(machine, api_only=True) as running:
+        yield running
 
 
-def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: Path):
+def worker_of(api: Service, **settings: object) -> AbstractContextManager[subprocess.Popen[str]]:
+    return running_worker(replace(api.machine, settings=settings))
+
+
+def test_a_stopping_worker_finishes_what_it_began(api: Service, tmp_path: Path):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    patient = Machine(embedded.data_dir, settings={"drain_s": PATIENCE_S})
-    with running_service(embedded, api_only=True) as service:
-        with running_worker(patient) as worker:
-            path = service.submit({"gate": str(gate), "note_pid": str(note)})
-            eventually(lambda: pids_noted(note), what="the fit runs")
-            waiting = service.submit({"seconds": 0.0})
-            worker.send_signal(signal.SIGTERM)
-            gate.touch()
-            assert worker.wait(timeout=PATIENCE_S) == 0
-        job = service.job(path)
-        assert job["state"] == "succeeded"
-        assert job["attempt"] == 1
-        assert service.state(waiting) in ("queued", "succeeded")
-
-
-def test_a_stopping_worker_hands_back_what_it_cannot_finish(embedded: Machine, tmp_path: Path):
-    note, gate = tmp_path / "pids", tmp_path / "gate"
-    impatient = Machine(embedded.data_dir, settings={"drain_s": 0.1})
-    with running_service(embedded, api_only=True) as service:
-        with running_worker(impatient) as worker:
-            path = service.submit({"gate": str(gate), "note_pid": str(note)})
-            (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
-            worker.send_signal(signal.SIGTERM)
-            assert worker.wait(timeout=PATIENCE_S) == 0
-        assert service.state(path) == "queued"
-        eventually(lambda: not is_running(pid), what="the fit ends")
+    with worker_of(api, drain_s=PATIENCE_S) as worker:
+        path = api.submit({"gate": str(gate), "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        waiting = api.submit({"seconds": 0.0})
+        worker.send_signal(signal.SIGTERM)
         gate.touch()
-        with running_worker(embedded):
-            assert service.ended(path)["state"] == "succeeded"
+        assert worker.wait(timeout=PATIENCE_S) == 0
+    job = api.job(path)
+    assert job["state"] == "succeeded"
+    assert job["attempt"] == 1
+    assert api.state(waiting) in ("queued", "succeeded")
+    assert api.client.delete(waiting).status_code == 204
 
 
-def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(
-    embedded: Machine, tmp_path: Path
-):
+def test_a_stopping_worker_hands_back_what_it_cannot_finish(api: Service, tmp_path: Path):
+    note, gate = tmp_path / "pids", tmp_path / "gate"
+    with worker_of(api, drain_s=0.1) as worker:
+        path = api.submit({"gate": str(gate), "note_pid": str(note)})
+        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+        worker.send_signal(signal.SIGTERM)
+        assert worker.wait(timeout=PATIENCE_S) == 0
+    assert api.state(path) == "queued"
+    eventually(lambda: not is_running(pid), what="the fit ends")
+    gate.touch()
+    with worker_of(api):
+        assert api.ended(path)["state"] == "succeeded"
+
+
+def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(api: Service, tmp_path: Path):
     note = tmp_path / "pids"
-    with running_service(embedded, api_only=True) as service:
-        with running_worker(embedded) as worker:
-            path = service.submit({"seconds": 3600, "note_pid": str(note)})
-            eventually(lambda: pids_noted(note), what="the fit runs")
-            worker.kill()
-            worker.wait()
-        assert service.client.post(f"{path}/cancel").status_code == 202
-        with running_worker(embedded):
-            assert service.ended(path)["state"] == "canceled"
-        assert len(pids_noted(note)) == 1
+    with worker_of(api) as worker:
+        path = api.submit({"seconds": 3600, "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        worker.kill()
+        worker.wait()
+    assert api.client.post(f"{path}/cancel").status_code == 202
+    with worker_of(api):
+        assert api.ended(path)["state"] == "canceled"
+    assert len(pids_noted(note)) == 1
 
 
 def _stops_cleanly(service: Service, told: signal.Signals) -> None:
@@ -208,6 +189,6 @@ def _worker_of(pid: int) -> int:
     (worker,) = (
         int(child)
         for child in children
-        if b"fake_worker" in Path(f"/proc/{child}/cmdline").read_bytes()
+        if b"\0worker\0" in Path(f"/proc/{child}/cmdline").read_bytes()
     )
     return worker

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from api_schemas.jobs import EventData, Fit
 from api_schemas.results import FitResult
 from api_schemas.service import BodyModels
@@ -20,7 +22,6 @@ from tests.integration.service.harness import (
     is_running,
     pids_noted,
     running_service,
-    said_of_view,
 )
 
 
@@ -75,18 +76,6 @@ def test_known_measurements_reach_the_fit_and_the_result_says_they_were_given(se
     assert len(given) < len(result.measurements)
 
 
-def test_the_request_part_may_be_a_file(service: Service):
-    response = service.client.post(
-        "/v1/fits",
-        files={
-            "image": ("picture.png", scripted_image(), "image/png"),
-            "request": ("request.json", json.dumps(REQUEST), "application/json"),
-        },
-    )
-    assert response.status_code == 202
-    assert service.ended(response.headers["Location"])["state"] == "succeeded"
-
-
 def test_events_tell_every_stage_in_order_and_end(service: Service):
     events = service.events(service.submit({"seconds": 0.5}))
     assert [int(event["id"]) for event in events] == list(range(1, len(events) + 1))
@@ -101,12 +90,6 @@ def test_events_tell_every_stage_in_order_and_end(service: Service):
     assert all(report["energies"]["total"] > 0.0 for report in reports)
     for event in events:
         EventData.model_validate_json(json.dumps(event["data"]))
-
-
-def test_a_listener_resumes_where_it_left_off(service: Service):
-    path = service.submit({"seconds": 0.2})
-    everything = service.events(path)
-    assert service.events(path, after=3) == everything[3:]
 
 
 def test_two_listeners_hear_the_same(service: Service):
@@ -132,16 +115,6 @@ def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(serv
     assert service.client.delete(path).status_code == 204
     for each in paths:
         assert service.client.get(each).status_code == 404
-
-
-def test_files_have_strong_tags(service: Service):
-    path = service.submit()
-    url = service.ended(path)["links"]["files"]["body_canonical.glb"]
-    whole = service.client.get(url)
-    assert whole.headers["ETag"] == f'"{hashlib.sha256(whole.content).hexdigest()}"'
-    assert whole.headers["Cache-Control"] == "no-store"
-    tag = {"If-None-Match": whole.headers["ETag"]}
-    assert service.client.get(url, headers=tag).status_code == 304
 
 
 def test_jobs_are_listed_newest_first_in_pages(service: Service):
@@ -190,35 +163,6 @@ def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service):
     assert response.status_code == 200
     assert response.json()["state"] == "canceled"
     assert [event["event"] for event in service.events(path)] == ["state", "end"]
-
-
-def test_erasing_leaves_nothing_of_a_job_on_the_disk(service: Service):
-    data = service.machine.data_dir
-    secret = "spoor-7c1e"
-    response = service.post(
-        {"secret": secret}, request=REQUEST | said_of_view(focal_length_px=713.28459)
-    )
-    path = response.headers["Location"]
-    service.ended(path)
-    assert _files_with(data, secret)
-    assert _files_with(data, "713.28459")
-    assert service.client.delete(path).status_code == 204
-    for gone in (path, f"{path}/result", f"{path}/events", f"{path}/files/views/0/overlay.png"):
-        assert service.client.get(gone).status_code == 404
-    assert service.client.delete(path).status_code == 404
-    for trace in (secret, "713.28459"):
-        eventually(lambda trace=trace: not _files_with(data, trace), what=trace)
-
-
-def _files_with(folder: Path, text: str) -> list[Path]:
-    return [path for path in folder.rglob("*") if text.encode() in _content(path)]
-
-
-def _content(path: Path) -> bytes:
-    try:
-        return path.read_bytes() if path.is_file() else b""
-    except FileNotFoundError:  # erased while we look
-        return b""
 
 
 def test_erasing_a_running_fit_kills_its_process_and_keeps_no_files(
@@ -272,14 +216,15 @@ def test_a_caller_may_wait_for_the_end(service: Service):
     service.client.delete(pending.headers["Location"])
 
 
-def test_a_full_queue_refuses_new_jobs(tmp_path: Path):
-    with running_service(Machine(tmp_path, settings={"max_queued": 2}), api_only=True) as service:
-        service.submit()
-        service.submit()
-        refused = service.post()
-        assert refused.status_code == 503
-        assert refused.json()["type"] == "/problems/queue-full"
-        assert int(refused.headers["Retry-After"]) > 0
+def test_a_full_queue_refuses_new_jobs_and_a_fit_counts_as_its_pictures(tmp_path: Path):
+    with running_service(Machine(tmp_path, settings={"max_queued": 3}), api_only=True) as service:
+        service.submit_several()
+        service.submit_several()
+        # Two fits are four pictures, more than three.
+        for refused in (service.post_several(), service.post()):
+            assert (refused.status_code, refused.json()["code"]) == (503, "queue-full")
+            assert refused.json()["type"] == "/problems/queue-full"
+            assert int(refused.headers["Retry-After"]) > 0
         scopes = {folder.name for folder in (tmp_path / "blobs").glob("*/*")}
         assert len(scopes - {STORAGE_SCOPE}) == 2
 
@@ -288,15 +233,6 @@ def test_the_bodies_there_are_can_be_asked_for(service: Service):
     answer = service.client.get("/v1/body-models")
     models = BodyModels.model_validate_json(answer.content)
     assert [model.gender for model in models.models] == ["female", "male"]
-
-
-def test_health_tells_whether_a_worker_is_alive(without_worker: Service):
-    client = without_worker.client
-    assert client.get("/healthz/live").status_code == 200
-    ready = client.get("/healthz/ready")
-    assert ready.status_code == 503
-    assert ready.json()["code"] == "no-worker"
-    assert client.get("/v1/body-models").status_code == 503
 
 
 def test_several_pictures_are_fitted_together(either: Service):
@@ -329,11 +265,54 @@ def test_a_fit_says_which_of_its_pictures_it_is_at(either: Service, tmp_path: Pa
     assert [each["view"] for each in progress] == [0, 1, None]
 
 
-def test_a_fit_waits_as_so_many_as_it_has_pictures(tmp_path: Path):
-    machine = Machine(tmp_path, settings={"max_queued": 3})
-    with running_service(machine, api_only=True) as service:
-        service.submit_several()
-        service.submit_several()
-        # Two fits are four pictures, more than three.
-        for refused in (service.post_several(), service.post()):
-            assert (refused.status_code, refused.json()["code"]) == (503, "queue-full")
+FAR = 10**40
+"""No database holds such a number."""
+
+
+def status_after(service: Service, path: str, event: object) -> int:
+    """The status of the answer to a reconnection; an endless stream is not waited for."""
+    headers = {"Last-Event-ID": str(event)}
+    with service.client.stream("GET", f"{path}/events", headers=headers) as answer:
+        return answer.status_code
+
+
+@pytest.fixture(scope="module")
+def ended(service: Service) -> str:
+    """The path of a fit that has ended."""
+    path = service.submit()
+    service.ended(path)
+    return path
+
+
+def test_after_the_end_there_is_nothing_to_reconnect_to(service: Service, ended: str):
+    last = int(service.events(ended)[-1]["id"])
+    for event in (last, last + 1, FAR):
+        assert status_after(service, ended, event) == 204, event
+
+
+def test_who_was_away_at_the_end_is_told_the_rest(service: Service, ended: str):
+    events = service.events(ended)
+    for seen in (0, 1, len(events) - 1):
+        assert service.events(ended, after=seen) == events[seen:]
+
+
+@pytest.mark.parametrize("event", ["", "later", "-1", "1.5", "1e3", "²"])
+def test_what_never_was_an_event_is_refused_by_name(service: Service, ended: str, event: str):
+    headers = {b"Last-Event-ID": event.encode()}
+    answer = service.client.get(f"{ended}/events", headers=headers)
+    assert (answer.status_code, answer.json()["field"]) == (422, "last-event-id")
+
+
+def test_a_number_beyond_all_events_has_the_rest_of_a_running_job_told(service: Service):
+    path = service.submit({"seconds": 60, "burn": True})
+    eventually(lambda: service.state(path) == "running", what="the fit runs")
+    seen = service.job(path)
+    headers = {"Last-Event-ID": str(FAR)}
+    with service.client.stream("GET", f"{path}/events", headers=headers) as answer:
+        assert answer.status_code == 200
+        service.client.post(f"{path}/cancel")
+        told = "".join(answer.iter_text())
+    assert seen["state"] == "running"
+    assert "event: end" in told
+    assert '"state":"canceled"' in told
+    assert '"state":"queued"' not in told

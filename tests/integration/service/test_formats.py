@@ -1,13 +1,89 @@
-"""Meshes in other formats and measurements as tables: by name, and what there is not."""
+"""A fit's files: its pictures and request, meshes in other formats, measurements as tables."""
 
 import csv
+import hashlib
 import io
+import json
 
 import httpx
 import pytest
 
-from tests.integration.service.harness import Machine, Service, eventually, running_service
+from api_schemas.fit import FitRequest
+from tests.heif_files import EIGHT_BITS
+from tests.integration.service.fake_answers import GLB as GLB_CONTENT
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import (
+    POINTS,
+    REQUEST,
+    Machine,
+    Service,
+    eventually,
+    running_service,
+    said_of_view,
+)
 from tests.integration.service.test_bad_input import checked
+
+
+def test_picture_and_request_of_a_job_can_be_had_again(service: Service):
+    job = service.client.get(service.submit()).json()
+    picture = service.client.get(job["links"]["files"]["views/0/image"])
+    assert picture.content == scripted_image()
+    assert picture.headers["content-type"] == "image/png"
+    request = service.client.get(job["links"]["request"])
+    options = FitRequest.model_validate_json(request.content)
+    assert options.height_m == REQUEST["height_m"]
+    assert set(json.loads(request.content)["views"][0]["points"]) == set(POINTS)
+
+
+def test_a_picture_can_be_had_as_a_jpeg(service: Service):
+    wait_for_estimator(service)
+    link = service.client.get(service.submit()).json()["links"]["files"]["views/0/image"]
+    sent = service.client.get(link)
+    shown = service.client.get(link, headers={"Accept": "image/jpeg"})
+    assert shown.headers["content-type"] == "image/jpeg"
+    assert shown.content.startswith(f"JPEG of {len(scripted_image())} bytes".encode())
+    assert shown.headers["vary"] == sent.headers["vary"] == "Accept"
+    assert shown.headers["etag"] != sent.headers["etag"]
+    known = {"Accept": "image/jpeg", "If-None-Match": shown.headers["etag"]}
+    assert service.client.get(link, headers=known).status_code == 304
+    other = {"Accept": "image/jpeg", "If-None-Match": sent.headers["etag"]}
+    assert service.client.get(link, headers=other).status_code == 200
+
+
+@pytest.mark.parametrize("accept", ["application/json", "image/jpeg;q=0.5, image/png"])
+def test_who_does_not_prefer_a_jpeg_gets_the_picture_as_it_was_sent(service: Service, accept):
+    link = service.client.get(service.submit()).json()["links"]["files"]["views/0/image"]
+    answer = service.client.get(link, headers={"Accept": accept})
+    assert (answer.headers["content-type"], answer.content) == ("image/png", scripted_image())
+
+
+def test_a_picture_that_cannot_be_decoded_is_no_jpeg(service: Service):
+    wait_for_estimator(service)
+    link = service.client.get(service.submit({"damaged": True})).json()["links"]["files"][
+        "views/0/image"
+    ]
+    problem = checked(service.client.get(link, headers={"Accept": "image/jpeg"}), 422)
+    assert (problem.field, problem.code) == ("image", "image-damaged")
+
+
+def test_a_heic_is_kept_as_it_was_sent(service: Service):
+    answer = service.client.post("/v1/images", files={"image": ("photo.heic", EIGHT_BITS)})
+    kept = answer.raise_for_status().json()
+    assert (kept["media_type"], kept["width"], kept["height"]) == ("image/heic", 96, 128)
+    inside = {name: [0.2 * x, 0.3 * y] for name, (x, y) in POINTS.items()}
+    request = REQUEST | said_of_view(image_id=kept["id"], points=inside)
+    job = service.client.post("/v1/fits", json=request).raise_for_status().json()
+    sent = service.client.get(job["links"]["files"]["views/0/image"])
+    assert (sent.headers["content-type"], sent.content) == ("image/heic", EIGHT_BITS)
+
+
+def test_they_are_not_sent_twice_to_who_has_them(service: Service):
+    links = service.client.get(service.submit()).json()["links"]
+    for link in (links["files"]["views/0/image"], links["request"]):
+        tag = service.client.get(link).headers["etag"]
+        again = service.client.get(link, headers={"If-None-Match": tag})
+        assert (again.status_code, again.content) == (304, b"")
+
 
 BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,*/*;q=0.8"
 MESH_TYPES = {
@@ -53,6 +129,8 @@ def test_each_format_has_a_tag_of_its_own(service: Service, files):
     endings = ("glb", *MESH_TYPES)
     tags = [get(service, f"{files}/body_canonical.{each}").headers["ETag"] for each in endings]
     assert len(set(tags)) == len(endings)
+    glb = get(service, f"{files}/body_canonical.glb")
+    assert tags[0] == f'"{hashlib.sha256(glb.content).hexdigest()}"'
     url = f"{files}/body_canonical.ply"
     whole = get(service, url)
     assert whole.headers["Cache-Control"] == "no-store"
@@ -60,7 +138,7 @@ def test_each_format_has_a_tag_of_its_own(service: Service, files):
     assert get(service, url, If_None_Match=tags[0]).status_code == 200
 
 
-@pytest.mark.parametrize("accept", [BROWSER, "model/obj", "model/fbx"])
+@pytest.mark.parametrize("accept", [BROWSER, "model/obj"])
 def test_a_name_says_the_format_whatever_is_accepted(service: Service, files, accept):
     answer = get(service, f"{files}/body_canonical.glb", Accept=accept)
     assert (answer.headers["content-type"], len(answer.content)) == (GLB, GLB_BYTES)
@@ -72,9 +150,8 @@ def test_a_name_says_the_format_whatever_is_accepted(service: Service, files, ac
 @pytest.mark.parametrize(
     "name",
     [
-        *("body_canonical.fbx", "body_canonical.xyz", "body_canonical", "body_canonical.", ".obj"),
-        *("body_canonical.mtl", "overlay.png", "views/0/overlay.obj"),
-        *("measurements.json", "result.csv"),
+        *("body_canonical.fbx", "body_canonical", ".obj", "body_canonical.mtl"),
+        *("overlay.png", "views/0/overlay.obj", "measurements.json"),
     ],
 )
 def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
@@ -110,26 +187,19 @@ def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files
     assert not {name for name in links if name.endswith((".csv", *MESH_TYPES))}
 
 
-@pytest.mark.parametrize(
-    ("named", "media_type"),
-    [
-        ("json", "application/json"),
-        ("glb", GLB),
-        ("ply", "model/ply"),
-        ("csv", "text/csv; charset=utf-8"),
-    ],
-)
-def test_a_body_of_measurements_is_answered_in_the_format_asked_for(
-    service: Service, named, media_type
-):
-    answer = service.client.post(f"/v1/bodies?format={named}", json={"gender": "male"})
-    assert (answer.status_code, answer.headers["content-type"]) == (200, media_type)
-
-
-def test_a_body_s_mesh_and_table_are_its_own(service: Service):
+def test_a_body_of_measurements_is_answered_in_the_format_asked_for(service: Service):
     def post(named: str) -> httpx.Response:
         return service.client.post(f"/v1/bodies?format={named}", json={"gender": "male"})
 
+    for named, media_type in {
+        "json": "application/json",
+        "glb": GLB,
+        "ply": "model/ply",
+        "csv": "text/csv; charset=utf-8",
+    }.items():
+        answer = post(named)
+        assert (answer.status_code, answer.headers["content-type"]) == (200, media_type)
+    assert post("glb").content == GLB_CONTENT
     assert post("obj").content == f"obj of {GLB_BYTES} bytes".encode()
     (row,) = csv.DictReader(io.StringIO(post("csv").text))
     assert (row["name"], row["unit"], row["low"], row["high"]) == (

@@ -229,27 +229,20 @@ def test_what_expires_while_the_disk_is_short_makes_room(disk: SmallDisk):
         assert {service.client.get(path).status_code for path in paths} == {410}
 
 
-def test_a_service_started_while_the_disk_is_short_can_erase(disk: SmallDisk):
+def test_while_the_disk_is_short_a_key_is_revoked_and_a_service_started_can_erase(disk: SmallDisk):
     machine = machine_on(disk)
     with running_service(machine) as service:
         path = service.submit(large(1))
         service.ended(path)
+        key = keys(machine, "create", "somebody").stdout.strip()
     disk.leave(SHORT)
+    revoked = keys(machine, "revoke", key.split("_")[1])
+    assert revoked.returncode == 0, revoked.stderr
     with running_service(machine, api_only=True) as service:
         assert service.client.get(f"{path}/result").status_code == 200
         assert service.client.delete(path).status_code == 204
         # The picture's two megabytes, less what the database wrote meanwhile.
         assert disk.free_bytes > 1_500_000
-
-
-def test_a_key_can_be_revoked_on_a_full_disk(disk: SmallDisk):
-    machine = machine_on(disk)
-    with running_service(machine, api_only=True):
-        pass
-    key = keys(machine, "create", "somebody").stdout.strip()
-    disk.leave(SHORT)
-    revoked = keys(machine, "revoke", key.split("_")[1])
-    assert revoked.returncode == 0, revoked.stderr
 
 
 def keys(machine: Machine, *arguments: str) -> subprocess.CompletedProcess[str]:

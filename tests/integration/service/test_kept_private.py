@@ -1,7 +1,12 @@
-"""Who may look at what is kept: its owner alone; and nobody finds secrets in a database."""
+"""What is kept: its owner alone may look at it, and nothing is left of it when it is erased."""
 
+import contextlib
+import hashlib
 import os
 import stat
+import time
+from collections.abc import Iterator
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import psycopg
@@ -11,14 +16,18 @@ from psycopg import sql
 from service.jobs.database import open_database, prepare_database
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
+from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
+    FRONT_AND_SIDE,
     REQUEST,
+    VIEW,
     Machine,
     Service,
     eventually,
     running_service,
 )
 from tests.integration.service.receiver import SECRET, Receiver
+from tests.integration.service.test_images import blobs_below
 
 PATH = "/hooks/one-time-token"
 OTHERS = 0o077
@@ -27,23 +36,6 @@ OTHERS = 0o077
 def open_to_others(folder: Path) -> set[Path]:
     found = (folder, *folder.rglob("*"))
     return {path for path in found if stat.S_IMODE(path.lstat().st_mode) & OTHERS}
-
-
-def test_nobody_else_can_look_into_a_data_folder_of_a_running_service(tmp_path: Path):
-    machine = Machine(tmp_path / "above" / "data")
-    before = os.umask(0)
-    try:
-        with running_service(machine) as service:
-            service.ended(service.submit())
-            assert {path.name for path in machine.data_dir.iterdir()} >= {
-                "blobs",
-                "maquette.sqlite",
-                "maquette.sqlite-wal",
-                "maquette.sqlite-shm",
-            }
-            assert open_to_others(machine.data_dir) == set()
-    finally:
-        os.umask(before)
 
 
 def test_what_was_open_to_others_is_closed(tmp_path: Path):
@@ -123,3 +115,108 @@ def written(url: str) -> bytes:
 
 def content(path: Path) -> bytes:
     return path.read_bytes() if path.is_file() else b""
+
+
+RETENTION_HOURS = 2.0
+SCRIPT = {"n": "the-picture-itself"}
+ERASED_SECRET = "whsec_" + "eraseThisSecretAtTheEndX" * 2
+WEBHOOK = {"url": "http://127.0.0.1:9/erase-this-address", "secret": ERASED_SECRET}
+PERSON = {"weight_kg": 83.7654321, "webhook": WEBHOOK}
+POINTS = {**VIEW["points"], "nose": [321.1234567, 61.7654321]}
+TRACES: dict[str, bytes] = {
+    "picture": b"the-picture-itself",
+    "picture's name": hashlib.sha256(scripted_image(SCRIPT)).hexdigest().encode(),
+    "points": b"321.1234567",
+    "weight, in request and result": b"83.7654321",
+    "result": b"The energy stopped decreasing.",
+    "receiver": b"erase-this-address",
+    "receiver's secret": ERASED_SECRET.encode(),
+}
+
+
+def traces(folder: Path) -> set[str]:
+    """What is found in any file: blobs, the database, its write-ahead log."""
+    found: set[str] = set()
+    for path in folder.rglob("*"):
+        try:
+            content = path.read_bytes() if path.is_file() else b""
+        except FileNotFoundError:  # erased while we look
+            continue
+        found |= {name for name, trace in TRACES.items() if trace in content}
+    return found
+
+
+def fitted(service: Service) -> str:
+    """Have the remarkable picture fitted, seen twice, and return the fit's path."""
+    views = [{"view": view, "points": POINTS} for view in ("front", "side")]
+    answer = service.post_several(
+        SCRIPT,
+        SCRIPT,
+        request=FRONT_AND_SIDE | PERSON | {"views": views},
+        masks=[scripted_image(SCRIPT)] * 2,
+    )
+    assert answer.status_code == 202, answer.text
+    return answer.headers["Location"]
+
+
+SETTINGS = {
+    "webhook_hosts": "127.0.0.1",
+    "sweep_interval_s": 0.3,
+    "retention_hours": RETENTION_HOURS,
+}
+
+
+@pytest.fixture(scope="module")
+def erasing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service that sweeps, started where files are open to all; leave no trace in it."""
+    machine = Machine(tmp_path_factory.mktemp("above") / "data", settings=SETTINGS)
+    before = os.umask(0)
+    with contextlib.ExitStack() as stack:
+        try:
+            service = stack.enter_context(running_service(machine))
+        finally:
+            os.umask(before)
+        yield service
+
+
+def test_nobody_else_can_look_into_a_data_folder_of_a_running_service(erasing: Service):
+    path, folder = erasing.fitted(), erasing.machine.data_dir
+    there = {"blobs", "maquette.sqlite", "maquette.sqlite-wal", "maquette.sqlite-shm"}
+    assert {each.name for each in folder.iterdir()} >= there
+    assert open_to_others(folder) == set()
+    assert erasing.client.delete(path).status_code == 204
+
+
+def test_after_delete_no_byte_is_left(erasing: Service):
+    service, folder = erasing, erasing.machine.data_dir
+    path = fitted(service)
+    assert service.ended(path)["state"] == "succeeded"
+    picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
+    uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
+    assert traces(folder) == set(TRACES)
+    assert service.client.delete(path).status_code == 204
+    assert service.client.delete(uploaded).status_code == 204
+    for gone in (path, f"{path}/result", f"{path}/events", f"{path}/files/views/0/overlay.png"):
+        assert service.client.get(gone).status_code == 404
+    assert service.client.delete(path).status_code == 404
+    eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
+    eventually(lambda: not blobs_below(folder), what="no file is left")
+
+
+def test_after_its_time_no_byte_is_left(erasing: Service):
+    service, folder = erasing, erasing.machine.data_dir
+    path = fitted(service)
+    job = service.ended(path)
+    ended_at, expires_at = (
+        datetime.fromisoformat(job[name]) for name in ("finished_at", "expires_at")
+    )
+    assert expires_at - ended_at == timedelta(hours=RETENTION_HOURS)
+    eventually(lambda: traces(folder) == set(TRACES), what="the job was there")
+    asked = service.client.post(f"{path}/products", json={"kind": "pose"})
+    product = service.ended(asked.headers["Location"])["links"]["self"]
+    service.machine.rewrite(path, expires_at=time.time())
+    for gone in (path, product, f"{product}/files/pose.png"):
+        eventually(lambda gone=gone: service.client.get(gone).status_code == 410, what=gone)
+    eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
+    eventually(lambda: not blobs_below(folder), what="no file is left")
+    assert service.client.get(path).status_code == 410

@@ -2,7 +2,6 @@
 
 import contextlib
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.fake_processes import command
 from tests.integration.service.harness import (
     REPOSITORY,
     Machine,
@@ -41,9 +41,11 @@ def database_url() -> Iterator[str]:
 
 @contextlib.contextmanager
 def worker_on_another_host(machine: Machine, name: str) -> Iterator[subprocess.Popen[bytes]]:
-    command = [*RENAMED, name, sys.executable, "-m", "tests.integration.service.fake_worker"]
     process = subprocess.Popen(
-        command, cwd=REPOSITORY, env=machine.environment(), stdin=subprocess.PIPE
+        [*RENAMED, name, *command("worker")],
+        cwd=REPOSITORY,
+        env=machine.environment(),
+        stdin=subprocess.PIPE,
     )
     try:
         yield process

@@ -1,8 +1,11 @@
-"""The quick lane: asked by many, its children killed, stuck and replaced."""
+"""Questions to the children that answer at once, and over the socket to their owner."""
 
 import os
 import signal
+import subprocess
 import threading
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,14 +14,21 @@ from api_schemas.questions import BodyEstimate, BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.compute import lanes
 from service.compute.fork_server import ForkServer
-from service.compute.lanes import QuickLane
+from service.compute.lanes import SOCKET, Ask, QuickLane, asking
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.compute.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
 from service.compute.tasks import child_setup
+from service.process.supervisor import SupervisedProcess
 from service.settings import Settings
 from tests.integration.service.fake_answers import GATE, GLB
-from tests.integration.service.fork_servers import started_anew
-from tests.integration.service.harness import PATIENCE_S, eventually, is_running
+from tests.integration.service.fake_processes import command
+from tests.integration.service.harness import (
+    PATIENCE_S,
+    REPOSITORY,
+    eventually,
+    is_running,
+    started_anew,
+)
 from tests.process_table import processes_with
 
 SETUP = child_setup(
@@ -167,5 +177,89 @@ def test_as_many_are_answered_at_once_as_there_are_children_and_too_many_are_tur
     gate.touch()
     for caller in (*callers, other):
         caller.join()
-    answered = [isinstance(each.message, DoneMessage) for each in (*answers, *others)]
-    assert (sum(answered), answered[-1]) == (capacity, True)
+    are_answered = [isinstance(each.message, DoneMessage) for each in (*answers, *others)]
+    assert (sum(are_answered), are_answered[-1]) == (capacity, True)
+
+
+COMMAND = command("estimators", "fake")
+FOLDER = "MAQUETTE_DATA_DIR"
+
+TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=True)
+PARTS = {QUESTION: TASK.model_dump_json().encode()}
+
+
+def asked_over(ask: Ask) -> Received:
+    return ask(TaskMessage(task=BODY, parts=tuple(PARTS)), PARTS)
+
+
+def answered(address: str) -> Received:
+    """Ask until there is an answer: an owner's children may take longer than is waited for."""
+
+    def answer() -> Received | None:
+        received = asked_over(asking(address))
+        return received if isinstance(received.message, DoneMessage) else None
+
+    return eventually(answer, what="answered")
+
+
+def assert_unavailable(received: Received) -> None:
+    assert isinstance(received.message, ProblemMessage)
+    assert received.message.problem.code == "estimator-unavailable"
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> str:
+    return str(tmp_path / SOCKET)
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    return os.environ | {FOLDER: str(tmp_path), "PYTHONPATH": str(REPOSITORY)}
+
+
+@pytest.fixture
+def owner(address: str, environment: dict[str, str]) -> Iterator[subprocess.Popen[bytes]]:
+    """A process that answers questions and ends with its standard input."""
+    process = subprocess.Popen([*COMMAND, address], env=environment, stdin=subprocess.PIPE)
+    yield process
+    process.kill()
+    process.communicate()
+
+
+def test_an_owner_is_waited_for_a_while(address: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(lanes, "READY_WITHIN_S", 0.3)
+    began = time.monotonic()
+    assert_unavailable(asked_over(asking(address)))
+    assert time.monotonic() - began >= 0.3
+
+
+def test_an_owner_ends_with_its_standard_input_and_its_children_with_it(
+    owner: subprocess.Popen[bytes], address: str, tmp_path: Path
+):
+    assert answered(address).parts[FILE] == GLB
+    running = {each.pid for each in processes_with(FOLDER, tmp_path)}
+    assert len(running) > 1
+    assert owner.stdin is not None
+    owner.stdin.close()
+    owner.wait(PATIENCE_S)
+    eventually(lambda: not any(is_running(pid) for pid in running), what="all have ended")
+
+
+def test_questions_are_answered_by_the_owner_that_is_started_after_one_that_was_killed(
+    address: str, environment: dict[str, str], tmp_path: Path
+):
+    supervised = SupervisedProcess(
+        [*COMMAND, address], name="estimators", environment=environment, stop_timeout_s=PATIENCE_S
+    )
+    answered(address)
+    (pid,) = (
+        each.pid
+        for each in processes_with(FOLDER, tmp_path)
+        if " estimators " in each.command and each.parent == os.getpid()
+    )
+    orphans = {each.pid for each in processes_with(FOLDER, tmp_path)} - {pid}
+    os.kill(pid, signal.SIGKILL)
+    answered(address)
+    eventually(lambda: not any(is_running(each) for each in orphans), what="its children ended")
+    supervised.stop()
+    eventually(lambda: not processes_with(FOLDER, tmp_path), what="all have ended")

@@ -1,9 +1,11 @@
-"""What is refused whatever is asked for: unknown parameters and ambiguous bodies."""
+"""What holds of every request and answer: parameters, bodies, HEAD, compression, tags."""
 
+from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
 
+from tests.contract.document import exported
 from tests.integration.service.harness import Service
 from tests.integration.service.limited_server import Caller
 from tests.integration.service.test_bad_input import checked
@@ -15,16 +17,11 @@ def port_of(service: Service) -> int:
     return port
 
 
-@pytest.mark.parametrize(
-    ("path", "known"),
-    [
-        ("/v1/fits", ("limit", "cursor", "state", "label")),
-    ],
-)
-def test_a_misspelt_filter_is_refused_by_its_name(service: Service, path, known):
-    problem = checked(service.client.get(path, params={"limit": 1, "sate": "failed"}), 422)
+def test_a_misspelt_filter_is_refused_by_its_name(service: Service):
+    asked = service.client.get("/v1/fits", params={"limit": 1, "sate": "failed"})
+    problem = checked(asked, 422)
     assert (problem.field, problem.code) == ("sate", "unknown-field")
-    assert all(name in problem.remedy for name in known)
+    assert all(name in problem.remedy for name in ("limit", "cursor", "state", "label"))
 
 
 @pytest.mark.parametrize(
@@ -89,3 +86,48 @@ def test_head_is_answered_as_get_without_the_body(service: Service):
             # Figures change by the request.
             if (path, name) != ("/metrics", "content-length"):
                 assert head.headers.get(name) == whole.headers.get(name), (path, name)
+
+
+PLAIN = {"Accept-Encoding": "identity"}
+PACKED = {"Accept-Encoding": "br, gzip"}
+
+
+@pytest.fixture(scope="module")
+def job(service: Service) -> dict[str, Any]:
+    return service.ended(service.submit())
+
+
+def test_a_measurement_has_the_interval_that_holds_95_of_100(service: Service, job: dict[str, Any]):
+    waist = service.client.get(job["links"]["result"]).json()["measurements"][0]
+    value, error = waist["value"], waist["standard_error"]
+    assert (waist["low"], waist["high"]) == pytest.approx(
+        (value - 1.96 * error, value + 1.96 * error)
+    )
+
+
+def test_json_is_compressed_when_asked_for(service: Service, job: dict[str, Any]):
+    for path in (
+        job["links"]["result"],
+        job["links"]["files"]["result.json"],
+        "/openapi.json",
+    ):
+        plain, packed = (service.client.get(path, headers=each) for each in (PLAIN, PACKED))
+        assert "Content-Encoding" not in plain.headers
+        assert packed.headers["Content-Encoding"] == "gzip"
+        assert int(packed.headers["Content-Length"]) < 0.6 * int(plain.headers["Content-Length"])
+        assert packed.json() == plain.json()
+        assert "Accept-Encoding" in packed.headers["Vary"]
+
+
+def test_events_come_one_by_one_and_meshes_as_they_are(service: Service, job: dict[str, Any]):
+    links = job["links"]
+    mesh = next(path for name, path in links["files"].items() if name.endswith(".glb"))
+    for path in (links["events"], mesh):
+        answer = service.client.get(path, headers=PACKED)
+        assert answer.status_code == 200
+        assert "Content-Encoding" not in answer.headers
+
+
+def test_the_served_document_is_the_exported_one_and_has_a_page(service: Service):
+    assert service.client.get("/openapi.json").json() == exported()
+    assert service.client.get("/docs").status_code == 200

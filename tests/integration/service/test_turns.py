@@ -1,22 +1,58 @@
-"""The order in which workers begin the jobs of several tenants, on both databases."""
+"""The order in which workers begin the jobs of several tenants."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
+import httpx
 import pytest
 import sqlalchemy as sa
 
+from service.jobs.database import open_database, prepare_database
 from service.jobs.keys import KeyRing
 from service.jobs.tables import JOBS
-from tests.integration.service.guarded_service import Guarded, opened
 from tests.integration.service.harness import (
     Machine,
     Service,
     eventually,
     running_service,
-    running_worker,
 )
+
+
+@dataclass
+class Guarded:
+    """A service that asks for keys, and its database."""
+
+    service: Service
+    ring: KeyRing
+    database: sa.Engine
+    clients: ExitStack
+
+    def caller(self, secret: str) -> Service:
+        """The service as somebody with this key sees it."""
+        client = httpx.Client(
+            base_url=self.service.client.base_url,
+            headers={"Authorization": f"Bearer {secret}"},
+            timeout=self.service.client.timeout,
+        )
+        self.clients.enter_context(client)
+        return Service(self.service.process, client, self.service.machine)
+
+    def key(self, tenant: str = "shop") -> str:
+        key = self.ring.create(tenant)
+        caller = self.caller(key)
+        eventually(lambda: caller.client.get("/v1/fits").status_code == 200, what="key known")
+        return key
+
+
+@contextmanager
+def opened(machine: Machine) -> Iterator[sa.Engine]:
+    url = machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
+    prepare_database(url)
+    database = open_database(url)
+    yield database
+    database.dispose()
 
 
 @pytest.fixture
@@ -47,6 +83,7 @@ def queue_up(
     return paths
 
 
+@pytest.mark.parametrize("machine", ["sqlite"], indirect=True)
 def test_tenants_take_turns_and_each_is_served_in_its_order(guarded: Guarded, tmp_path: Path):
     gate, names = tmp_path / "gate", dict[str, str]()
     alice, bob = (guarded.caller(guarded.key(tenant)) for tenant in ("alice", "bob"))
@@ -63,19 +100,3 @@ def test_tenants_take_turns_and_each_is_served_in_its_order(guarded: Guarded, tm
         *("alice 1", "bob 1"),
         *("alice 2", "alice 3", "alice 4"),
     ]
-
-
-def test_turns_are_the_same_for_several_workers(guarded: Guarded, tmp_path: Path):
-    gate, names = tmp_path / "gate", dict[str, str]()
-    alice, bob = (guarded.caller(guarded.key(tenant)) for tenant in ("alice", "bob"))
-    with running_worker(guarded.service.machine):
-        paths = queue_up(alice, "alice", 8, gate, names)
-        eventually(lambda: alice.state(paths[1]) == "running", what="both workers are busy")
-        single = queue_up(bob, "bob", 1, gate, names)
-        gate.touch()
-        assert bob.ended(single[0])["state"] == "succeeded"
-        for path in paths:
-            assert alice.ended(path)["state"] == "succeeded"
-        # It is claimed first or second. Until it begins, the other worker may end short ones: they
-        # take as long as that moment. Without turns it would come last, after all eight.
-        assert "bob 0" in begun(guarded, names)[2:6]
