@@ -8,9 +8,9 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from fitter.export.glb import Frame
+from fitter.export.glb import BinaryChunk, Frame
 from fitter.export.gltf import body_canonical_glb, body_posed_glb, plain_glb, quaternion_from_z_to
-from fitter.export.gltf_mesh import LIGHTEST
+from fitter.export.gltf_mesh import LIGHTEST, add_body_mesh
 from fitter.parameters import CameraTilt, Reflectance
 from fitter.person.upright import upright_frame
 from fitter.vocabulary.outcomes import StanceKind
@@ -309,3 +309,26 @@ def test_the_colours_of_the_skin_are_given_where_they_are_known():
         plain_glb(model.mean_vertices, model, name="body", frame=Frame.STANDING, extras={})
     )
     assert "COLOR_0" not in plain.document["meshes"][0]["primitives"][0]["attributes"]
+
+
+@pytest.mark.parametrize(
+    ("vertices", "component"), [(65_534, 5123), (65_535, 5125), (70_000, 5125)]
+)
+def test_as_many_vertices_as_sixteen_bits_count_have_wider_indices(vertices, component):
+    """The largest number of each kind is none that an index may have."""
+    triangles = np.arange(vertices - 2)[:, None] + np.arange(3)
+    places = np.random.default_rng(0).normal(size=(vertices, 3))
+    binary = BinaryChunk()
+    primitive = add_body_mesh(
+        {}, binary, vertices=places, triangles=triangles, reflectance=None, albedo_rgb=None
+    )
+    accessor = binary.accessors[primitive["indices"]]
+    assert accessor["componentType"] == component
+    view = binary.buffer_views[accessor["bufferView"]]
+    kept = np.frombuffer(
+        binary.content(),
+        {5123: "<u2", 5125: "<u4"}[component],
+        accessor["count"],
+        view["byteOffset"],
+    )
+    np.testing.assert_array_equal(kept.reshape(-1, 3), triangles)
