@@ -12,15 +12,18 @@ from jaxtyping import Float
 from scipy.ndimage import gaussian_filter
 
 from tests.accuracy.garment_fields import (
+    ARM_PARTS,
+    LEG_PARTS,
     Lattice,
     Sheet,
+    SkinSamples,
     cloth_mesh,
     hung,
     lattice_round,
     sheet_of,
     skin_distance,
+    skin_samples,
 )
-from tests.accuracy.garment_samples import ARM_PARTS, LEG_PARTS, SkinSamples, skin_samples
 from tests.accuracy.landmark_points import rest_landmarks
 from tests.accuracy.meshes import PersonMesh
 from tests.accuracy.noise import smooth_step

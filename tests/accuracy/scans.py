@@ -13,7 +13,6 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Clothing, Cues, ViewKind
 from tests.accuracy.cases import CLOTHED_PAIRS, PHONE_PAIRS, PicturePair
 from tests.accuracy.foreign import foreign_names
-from tests.accuracy.joints import joint_error_mm
 from tests.accuracy.landmark_points import packaged_model
 from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.runs import picture_of
@@ -21,6 +20,7 @@ from tests.accuracy.scene import Half, Kind, Series
 from tests.accuracy.scoring import errors_of, overlap, standard_errors_of
 from tests.accuracy.table import MEASUREMENTS, error_heading, error_line
 from tests.accuracy.true_picture import Told, TruePicture, told_request
+from tests.accuracy.truth import joint_error_mm
 from tests.one_picture import changed, together
 
 OTHER_KINDS = (Kind.STANDING, Kind.TURNED)

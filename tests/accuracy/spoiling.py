@@ -13,8 +13,8 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask
 from fitter.observation.pixels import WORKING_PIXELS, display_from_linear, linear_from_display
-from tests.accuracy.joints import part_of_joint
 from tests.accuracy.true_picture import TruePicture
+from tests.accuracy.truth import part_of_joint
 
 Picture = UInt8[np.ndarray, "h w 3"]
 

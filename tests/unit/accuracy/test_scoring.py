@@ -15,12 +15,11 @@ from fitter.training.articulation.parts import PART_NAMES, part_index
 from fitter.vocabulary.choices import Clothing, Gender, LightKind
 from tests.accuracy.files import photograph, read_labels, write_labels
 from tests.accuracy.foreign import FOLDER, TRUE_NAMES, foreign_half, foreign_names, foreign_picture
-from tests.accuracy.joints import joint_error_mm, part_of_joint, wrong_limbs
 from tests.accuracy.scene import Half, Series
 from tests.accuracy.scoring import light_error, overlap, resampled
 from tests.accuracy.seen_labels import CLASSES, label_overlaps
 from tests.accuracy.true_picture import Told, TruePicture, told_request
-from tests.accuracy.truth import TrueBody, light_toward
+from tests.accuracy.truth import TrueBody, joint_error_mm, light_toward, part_of_joint, wrong_limbs
 from tests.one_picture import one_picture
 from tests.shared_data import needs_shared
 
