@@ -3,7 +3,7 @@
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Depends, Request
 
@@ -48,9 +48,10 @@ def _context(request: Request) -> ApiContext:
     parts: Parts = request.app.state.parts
     tenant: str = request.state.tenant
     engine = parts.engine
+    shared: dict[str, Any] = {each.name: getattr(parts, each.name) for each in fields(Parts)}
+    shared["estimators"] = parts.estimators.of(tenant)
     return ApiContext(
-        **{each.name: getattr(parts, each.name) for each in fields(Parts)}
-        | {"estimators": parts.estimators.of(tenant)},
+        **shared,
         tenant=tenant,
         jobs=engine.of(tenant),
         images=engine.images_of(tenant),
