@@ -72,6 +72,12 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
     Statements are logged without their parameters, so that no caller's data gets into a log.
     """
+    engine = _pool(url, connections=connections)
+    leave_when_damaged(engine)
+    return engine
+
+
+def _pool(url: str, *, connections: int) -> sa.Engine:
     parsed = sa.make_url(url)
     pool: dict[str, Any] = {
         "pool_size": connections,
@@ -84,7 +90,6 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
         secure_file(Path(parsed.database or ""))
         engine = sa.create_engine(parsed, **pool)
         event.listen(engine, "connect", configure_connection)
-        leave_when_damaged(engine)
         return engine
     engine = sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
@@ -140,7 +145,8 @@ def locked(engine: sa.Engine) -> Iterator[sa.Connection]:
 def opened(url: str) -> Iterator[sa.Engine]:
     """Open the database briefly; errors that waiting cannot cure name its address."""
     try:
-        engine = open_database(url, connections=2)
+        # Without a word of damage: whoever starts says so in its own line.
+        engine = _pool(url, connections=2)
     except ArgumentError as error:
         raise _unusable(url, "it cannot be read") from error
     try:
