@@ -171,7 +171,7 @@ class Project:
         self.programs = folder / "programs"
         self.programs.mkdir()
         for name, text in {
-            "service/version.py": f'RELEASED = "{RELEASED}"\n',
+            "service/version.py": f'VERSION = "{RELEASED}"\n',
             "CHANGELOG.md": CHANGELOG,
             ".gitignore": "build/\ndist/\nservice/docs_site/\n",
         }.items():
