@@ -156,7 +156,7 @@ def facing_camera(vertices, normals, visible, least, result):
         result[i] = -along / sqrt(x * x + y * y + z * z) > least
 
 
-_FAR_REACHES = 2.0
+_FAR_REACHES = 1.0
 
 
 @no_type_check
