@@ -27,13 +27,18 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest selects by the marker
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what `make test-rest` and `make test-shapes` run, and put the longest files first."""
+    """Mark what `make test-rest` and `make test-shapes` run."""
     for item in items:
         slow = item.get_closest_marker("slow") is not None
         if is_rest(item.path, slow=slow):
             item.add_marker("rest")
         if is_of_shapes(item.path, slow=slow):
             item.add_marker("shapes")
+
+
+@pytest.hookimpl(specname="pytest_collection_modifyitems", trylast=True)  # after they are shuffled
+def order_of_files(items: list[pytest.Item]) -> None:
+    """Put the longest files first."""
     items.sort(key=lambda item: begins(item.path))
 
 
