@@ -16,6 +16,8 @@ from service.compute.kernels import (
     settle_folders,
 )
 from service.process.confinement import ending_with_the_parent
+from service.process.work_folder import VARIABLE as TEMPORARY
+from service.process.work_folder import is_abandoned
 from service.settings import Settings
 
 LOG: Final = logging.getLogger(__name__)
@@ -63,5 +65,8 @@ link_kernels(OWN, KEPT)
 os.environ[VARIABLE] = str(OWN)
 # The folder is gone with the worker: kernels would be compiled that nobody uses.
 with ending_with_the_parent():
+    # A worker that died before holds its folder no longer, and nobody would end this process.
+    if is_abandoned(Path(os.environ[TEMPORARY])):
+        os._exit(0)
     _load(Settings())
     _keep_no_more()

@@ -60,6 +60,14 @@ def remove_abandoned(parent: Path) -> None:
                 os.close(descriptor)
 
 
+def is_abandoned(folder: Path) -> bool:
+    """Whether the process that made a work folder runs no more."""
+    with suppress(OSError):
+        os.close(_lock(folder))
+        return True
+    return False
+
+
 def _lock(folder: Path) -> int:
     """Take the lock of a folder.
 

@@ -80,11 +80,6 @@ def halved(content: bytes) -> bytes:
     return content[: len(content) // 2]
 
 
-def halved_heic() -> bytes:
-    """Cut in the middle of the pixels."""
-    return halved(phone_picture(coded(SAMPLE_LYING), orientation=6, quarters=3))
-
-
 NOISE = encoded(noise(), "PNG")
 
 
@@ -125,15 +120,3 @@ def test_what_only_the_fit_can_find_wrong_ends_as_a_problem(
     assert problem["errors"][0]["reason"]
     assert problem["remedy"]
     assert job["attempt"] == 1
-
-
-@pytest.mark.parametrize(
-    "image", [halved(encoded(noise(), "WEBP")), halved_heic()], ids=["WebP", "HEIC"]
-)
-def test_kinds_that_say_how_long_they_are_are_refused_at_once_if_they_are_not(client, image):
-    request = {"gender": "female", "height_m": 1.7, "views": [{"points": POINTS}]}
-    answer = client.post("/v1/fits", files={"image": image}, data={"request": json.dumps(request)})
-    assert answer.status_code == httpx.codes.UNPROCESSABLE_ENTITY
-    problem = answer.json()
-    assert (problem["field"], problem["code"]) == ("views.0.image", "image-damaged")
-    assert problem["remedy"]

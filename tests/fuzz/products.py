@@ -4,6 +4,7 @@ import json
 import random
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from api_schemas.products.base import ProductKind
@@ -24,32 +25,8 @@ STRANGE = (
 
 WORDS = ("}", "{", "JOINT", "ROOT", "End Site", "OFFSET", "CHANNELS", "MOTION", "Frames:", "\x00")
 
-BONES: Mapping[str, tuple[str | None, tuple[float, float, float]]] = {
-    "Hips": (None, (0.0, 95.0, 0.0)),
-    "LowerBack": ("Hips", (0.0, 10.0, 0.0)),
-    "Chest": ("LowerBack", (0.0, 15.0, 0.0)),
-    "Neck": ("Chest", (0.0, 25.0, 0.0)),
-    "Head": ("Neck", (0.0, 8.0, 0.0)),
-    **{
-        f"{side}{joint}": (f"{side}{parent}" if parent != "Chest" else parent, (sign * x, y, z))
-        for side, sign in (("Left", 1.0), ("Right", -1.0))
-        for joint, parent, (x, y, z) in (
-            ("Shoulder", "Chest", (18.0, 20.0, 0.0)),
-            ("Elbow", "Shoulder", (28.0, 0.0, 0.0)),
-            ("Wrist", "Elbow", (25.0, 0.0, 0.0)),
-        )
-    },
-    **{
-        f"{side}{joint}": (f"{side}{parent}" if parent != "Hips" else parent, (sign * x, y, z))
-        for side, sign in (("Left", 1.0), ("Right", -1.0))
-        for joint, parent, (x, y, z) in (
-            ("Hip", "Hips", (9.0, -5.0, 0.0)),
-            ("Knee", "Hip", (0.0, -40.0, 0.0)),
-            ("Ankle", "Knee", (0.0, -40.0, 0.0)),
-        )
-    },
-}
-"""Parent and offset, centimetres, of a skeleton under CMU's names."""
+CLIP = Path(__file__).parents[1] / "unit" / "applications" / "data" / "bvh" / "r_identity.bvh"
+"""A walk under CMU's names."""
 
 
 def motion(chance: random.Random) -> bytes:
@@ -66,31 +43,10 @@ def motion(chance: random.Random) -> bytes:
 
 def sound_motion(chance: random.Random) -> bytes:
     """A file with nothing wrong, of a few frames."""
-    lines, order = ["HIERARCHY"], list[str]()
-
-    def write(name: str) -> None:
-        order.append(name)
-        parent, offset = BONES[name]
-        lines.append(f"{'JOINT' if parent else 'ROOT'} {name}")
-        lines.append("{")
-        lines.append("OFFSET " + " ".join(map(str, offset)))
-        places = "" if parent else "Xposition Yposition Zposition "
-        channels = f"{places}Zrotation Xrotation Yrotation"
-        lines.append(f"CHANNELS {len(channels.split())} {channels}")
-        children = [each for each, (above, _) in BONES.items() if above == name]
-        for child in children:
-            write(child)
-        if not children:
-            lines.extend(["End Site", "{", "OFFSET 0 -5 8", "}"])
-        lines.append("}")
-
-    write("Hips")
     frames = chance.randint(1, MOST_FRAMES)
-    lines += ["MOTION", f"Frames: {frames}", "Frame Time: 0.0333333"]
-    for frame in range(frames):
-        turns = [chance.uniform(-20.0, 20.0) for _ in range(3 * len(order))]
-        lines.append(" ".join(f"{number:.3f}" for number in (frame, 95.0, 0.0, *turns)))
-    return "\n".join(lines).encode()
+    skeleton, _, numbers = CLIP.read_bytes().partition(b"Frames: 40\n")
+    lines = numbers.splitlines()[: 1 + frames]
+    return b"\n".join([skeleton + b"Frames: %d" % frames, *lines])
 
 
 def _strange_body(content: bytes, chance: random.Random) -> bytes:
@@ -137,7 +93,7 @@ def _other_words(content: bytes, chance: random.Random) -> bytes:
         case 3:
             lines[at] = chance.choice(WORDS).encode()
         case 4:
-            joint = chance.choice(sorted(BONES)).encode()
+            joint = chance.choice(re.findall(rb"JOINT (\w+)", content) or [b"Hips"])
             lines = [line.replace(joint, chance.choice((b"", b"Tail", b"Hips"))) for line in lines]
         case _:
             deep = [b"JOINT a", b"{", b"OFFSET 0 0 0", b"CHANNELS 0"] * chance.choice(

@@ -7,7 +7,6 @@ would put them: about the middle of the picture, over what is drawn, or where th
 import io
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from itertools import chain
 from typing import Any
 
 import cv2
@@ -58,11 +57,6 @@ def _circle(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRe
     return _drawn(*disc(rng), request)
 
 
-def _dog(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
-    """A person's points, stretched over the dog."""
-    return _drawn(*dog(rng), request)
-
-
 def _two_in_one_mask(
     files: CaseFiles, other: CaseFiles, request: FitRequest, rng: Rng
 ) -> FitRequest:
@@ -77,7 +71,6 @@ _KINDS: Mapping[str, tuple[int, Maker]] = {
     "landscape": (0, _landscape),
     "noise": (2, _noise),
     "circle": (3, _circle),
-    "dog": (6, _dog),
     "two in one mask": (9, _two_in_one_mask),
 }
 """By kind the seed and the maker."""
@@ -188,52 +181,6 @@ def disc(rng: Rng) -> tuple[Picture, Box]:
     left, top, right, bottom = (float(each) for each in tight)
     inset = 0.08 * (bottom - top)
     return coded(picture), (left + inset, top + inset, right - inset, bottom - inset)
-
-
-def dog(rng: Rng) -> tuple[Picture, Box]:
-    """A dog seen from the side: picture, and the box of its joints."""
-    height, width = SIZE
-    scale = width * rng.uniform(0.28, 0.36)
-    middle = np.array([0.5 * width, 0.52 * height]) + rng.uniform(-15.0, 15.0, 2)
-    swing = rng.uniform(-0.08, 0.08, 4)
-
-    def at(x: float, y: float) -> tuple[float, float]:
-        return float(middle[0] + scale * x), float(middle[1] + scale * y)
-
-    legs = (
-        (at(0.72, 0.15), at(0.72 + swing[0], 0.62), at(0.74 + swing[0], 1.05)),
-        (at(0.55, 0.15), at(0.52 + swing[1], 0.62), at(0.5 + swing[1], 1.05)),
-        (at(-0.6, 0.12), at(-0.55 + swing[2], 0.62), at(-0.68 + swing[2], 1.05)),
-        (at(-0.75, 0.12), at(-0.8 + swing[3], 0.62), at(-0.9 + swing[3], 1.05)),
-    )
-    shape = np.zeros(SIZE, np.uint8)
-    _ellipse(shape, at(0.0, 0.0), (0.85 * scale, 0.3 * scale), 0.0)
-    _ellipse(shape, at(0.95, -0.4), (0.3 * scale, 0.22 * scale), 20.0)
-    _ellipse(shape, at(1.15, -0.32), (0.22 * scale, 0.11 * scale), 10.0)
-    _ellipse(shape, at(0.8, -0.45), (0.09 * scale, 0.22 * scale), 15.0)
-    _stroke(shape, (at(0.65, -0.05), at(0.9, -0.4)), 0.3 * scale)
-    _stroke(shape, (at(-0.8, -0.1), at(-1.05, -0.35), at(-1.15, -0.65)), 0.09 * scale)
-    for leg in legs:
-        _stroke(shape, leg, 0.15 * scale)
-    joints = [at(1.3, -0.32), at(1.0, -0.48), at(0.85, -0.62), *chain.from_iterable(legs)]
-    fur = rng.uniform(30.0, 160.0, 3) + 14.0 * smooth_noise(rng, 2.0)[..., None]
-    lawn = np.array([90.0, 150.0, 70.0]) + rng.uniform(-20.0, 60.0, 3)
-    ground = lawn + 12.0 * smooth_noise(rng, 5.0)[..., None]
-    picture = cv2.GaussianBlur(np.where(shape[..., None] > 0, fur, ground), (0, 0), 0.7)
-    inside = np.clip(joints, 1.0, np.array([width, height]) - 1.0)
-    return coded(picture), (*inside.min(axis=0), *inside.max(axis=0))
-
-
-def _ellipse(
-    canvas: np.ndarray, centre: tuple[float, float], axes: tuple[float, float], degrees: float
-) -> None:
-    middle = round(centre[0]), round(centre[1])
-    cv2.ellipse(canvas, middle, (round(axes[0]), round(axes[1])), degrees, 0, 360, 1, -1)
-
-
-def _stroke(canvas: np.ndarray, places: tuple[tuple[float, float], ...], width: float) -> None:
-    line = np.array([(round(x), round(y)) for x, y in places], np.int32)
-    cv2.polylines(canvas, [line], False, 1, max(round(width), 1))
 
 
 def smooth_noise(rng: Rng, spread: float) -> Float[np.ndarray, "h w"]:

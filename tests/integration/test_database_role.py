@@ -97,9 +97,3 @@ def test_the_role_has_no_rights_but_over_its_own_database(url: str):
         ):
             with pytest.raises(psycopg.errors.InsufficientPrivilege):
                 connection.execute(forbidden)
-
-
-def test_a_wrong_password_opens_nothing(url: str, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setenv("PGPASSWORD", "another")
-    with pytest.raises(psycopg.OperationalError, match="password authentication failed"):
-        psycopg.connect(url)

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any, Final
 
 from api_schemas.fit import FitRequest
-from api_schemas.person import Person, UncertainMeasurement
 from api_schemas.problems import FieldProblem
 from api_schemas.products import AnyProductOptions, ProductRequest
 from api_schemas.products.base import BodyColours, ProductResult
@@ -76,7 +75,7 @@ BODY_RESULT = BodyResult(
 
 
 def fit_result(asked: FitRequest) -> FitResult:
-    waist = _measurement("waist_girth", 80.0 + len(asked.views[0].points), "cm", 1.0)
+    waist = 80.0 + len(asked.views[0].points)
     return FitResult(
         gender=asked.gender,
         height_m=asked.height_m or 1.7,
@@ -84,7 +83,19 @@ def fit_result(asked: FitRequest) -> FitResult:
         optimizer=asked.optimizer,
         energies={"total": 1.0},
         evaluations=3,
-        measurements=(waist, *_given(asked)),
+        measurements=(
+            Measurement(
+                name="waist_girth",
+                value=waist,
+                unit="cm",
+                standard_error=1.0,
+                low=waist - 1.96,
+                high=waist + 1.96,
+                given=False,
+                definition="At the navel.",
+                source="ISO 8559-1",
+            ),
+        ),
         shape=(0.0, 0.0),
         verdict=Verdict.PLAUSIBLE,
         outcome_explanation="The energy stopped decreasing.",
@@ -129,34 +140,6 @@ def _view(kind: ViewKind | None) -> ViewResult:
         clothing=(),
         assumptions=(assumed(Note.LENS_ASSUMED, "Unknown.", where=("focal_length_35mm",)),),
         warnings=(),
-    )
-
-
-def _given(asked: Person) -> tuple[Measurement, ...]:
-    known = dict(asked.measurements)
-    if asked.weight_kg is not None:
-        known["weight"] = asked.weight_kg
-    return tuple(
-        _measurement(name, each.value, "cm", each.standard_error, given=True)
-        if isinstance(each, UncertainMeasurement)
-        else _measurement(name, each, "kg" if name == "weight" else "cm", 0.0, given=True)
-        for name, each in known.items()
-    )
-
-
-def _measurement(
-    name: str, value: float, unit: str, error: float, *, given: bool = False
-) -> Measurement:
-    return Measurement(
-        name=name,
-        value=value,
-        unit=unit,
-        standard_error=error,
-        low=value - 1.96 * error,
-        high=value + 1.96 * error,
-        given=given,
-        definition="As given." if given else "At the navel.",
-        source="The caller" if given else "ISO 8559-1",
     )
 
 
@@ -229,12 +212,6 @@ SCRIPT_MARK = b"#script:"
 
 GATE_LOOK_S = 0.01
 
-NOBODYS_WEIGHT_KG = 33.0
-"""Contradicts whatever else is given, as the estimator says too."""
-
-UNNOTICED_WEIGHT_KG = 34.0
-"""As well, but the estimator has nothing against it."""
-
 
 def scripted_image(
     script: dict[str, object] | None = None, *, width: int = 640, height: int = 480
@@ -261,15 +238,6 @@ def fit(_setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
             _check(script, view)
             _go_on(script)
         observe(Report(stage="shading", progress=0.5))
-    if asked.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
-        raise UnusableInputError(
-            FieldProblem(
-                field="weight_kg",
-                code="contradictory-measurements",
-                reason="Nobody has all of these together.",
-                remedy="Leave out the least certain.",
-            )
-        )
     _go_on(scripts[0] | {"seconds": 0.0})
     return with_result_document(fit_result(asked), result_files([each.image for each in pictures]))
 

@@ -23,7 +23,6 @@ from service.api.limits import BodyLimits, RequestLimit
 from service.api.problems import install_problem_handlers
 from tests.integration.service.harness import PATIENCE_S, eventually
 
-SHORT_S = 0.3
 LONG_S = 3600.0
 LARGE_BYTES = 50_000_000
 """More than the buffers of both ends hold."""
@@ -170,11 +169,3 @@ class Caller:
         assert answer.status == status
         assert answer.headers["content-type"] == PROBLEM_MEDIA_TYPE
         return Problem.model_validate_json(body)
-
-
-def let_a_body_be_late(served: Served) -> None:
-    """Return when a body that begins now is late."""
-    with Caller(served.port) as slow:
-        slow.ask("/length", method="POST", headers="Content-Length: 1\r\n")
-        slow.problem(408)
-        assert slow.is_ended()

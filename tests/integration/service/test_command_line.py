@@ -17,7 +17,6 @@ from service.compute.tasks import ChildSetup, Observe, Parts
 from service.demo_data.sample import Sample, load_sample
 from service.jobs.inputs import RESULT
 from service.jobs.records import FIT
-from service.version import VERSION
 from tests.integration.service import fake_pipeline
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.fake_processes import command
@@ -63,12 +62,6 @@ def test_a_fit_without_a_service_writes_its_measurements_as_a_table(tmp_path):
     assert (row["name"], float(row["value"]), row["unit"]) == ("waist_girth", FAKE_WAIST, "cm")
 
 
-def test_two_pictures_are_fitted_together(tmp_path, capsys):
-    assert fit(tmp_path, FRONT_AND_SIDE, scripted_image(), scripted_image({"n": 1})) == 0
-    assert (tmp_path / "out" / "views" / "1" / "overlay.png").exists()
-    assert "View 1, side" in capsys.readouterr().out
-
-
 def test_a_folder_of_damaged_models_is_told(tmp_path, capsys, monkeypatch):
     sample = load_sample()
     for name in ("female.npz", "male.npz"):
@@ -78,12 +71,6 @@ def test_a_folder_of_damaged_models_is_told(tmp_path, capsys, monkeypatch):
     printed = capsys.readouterr().out
     assert "The body model cannot be used." in printed
     assert "male.npz" in printed
-
-
-def test_the_least_request_has_all_points_proposed(tmp_path):
-    assert fit(tmp_path, {"gender": "female", "height_m": 1.7}) == 0
-    result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
-    assert (result.gender, result.height_m) == ("female", 1.7)
 
 
 @pytest.mark.parametrize(
@@ -132,37 +119,9 @@ def _quick(monkeypatch):
 
 
 @pytest.mark.usefixtures("_quick")
-def test_the_demo_shows_bars_prints_the_truth_beside_and_keeps_the_files(tmp_path, capsys):
-    output = tmp_path / "demo-output"
-    script = {"seconds": 0.3}
-    assert run_demo(output, sample(script), serve_command=FAKE_SERVE) == 0
-    printed = capsys.readouterr().out
-    assert "silhouette and edges" in printed
-    assert "+2.0" in printed
-    assert "demo-output" in printed.replace("\n", "")
-    assert (output / "views" / "0" / "overlay.png").read_bytes() == scripted_image(script)
-    FitResult.model_validate_json((output / "result.json").read_bytes())
-
-
-@pytest.mark.usefixtures("_quick")
 def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
     assert run_demo(tmp_path, sample({"unusable": True}), serve_command=FAKE_SERVE) == 1
     assert "The picture ends too early." in capsys.readouterr().out.replace("\n", " ")
-
-
-def test_help_names_every_command(capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["--help"])
-    assert ended.value.code == 0
-    printed = capsys.readouterr().out
-    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "paper"))
-
-
-def test_the_version_is_printed(capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["--version"])
-    assert ended.value.code == 0
-    assert capsys.readouterr().out == f"maquette {VERSION}\n"
 
 
 def test_keys_are_those_of_the_data_folder_that_is_named(tmp_path, capsys):
@@ -185,14 +144,6 @@ def test_a_port_in_use_is_said_so_with_what_to_do(capsys):
     said = capsys.readouterr().err
     assert str(port) in said
     assert "--port" in said
-
-
-def test_a_setting_that_is_no_number_is_named(capsys, monkeypatch):
-    monkeypatch.setenv("MAQUETTE_PORT", "abc")
-    with pytest.raises(SystemExit) as ended:
-        main(["serve"])
-    assert ended.value.code == 78
-    assert "MAQUETTE_PORT=abc" in capsys.readouterr().err
 
 
 FOUND = 92.0

@@ -10,9 +10,7 @@ from service.api import app
 from tests.integration.service.harness import PATIENCE_S, Machine, eventually, running_service
 from tests.integration.service.limited_server import (
     LARGE_BYTES,
-    SHORT_S,
     Caller,
-    let_a_body_be_late,
     serving,
 )
 
@@ -53,15 +51,6 @@ def test_an_event_stream_counts_as_long_as_it_is_followed():
         eventually(is_answered, what="a place")
 
 
-def test_a_connection_that_asks_nothing_takes_no_place():
-    with serving(most=1) as served, Caller(served.port), Caller(served.port) as begun:
-        begun.send("GET /quick")
-        served.has_connections(2)
-        with Caller(served.port) as further:
-            further.ask("/quick")
-            assert further.status() == 200
-
-
 def test_who_sends_much_to_a_service_that_is_full_reads_why():
     with serving(most=1) as served, Caller(served.port) as busy:
         busy.ask("/held")
@@ -93,26 +82,6 @@ def test_the_service_itself_holds_to_its_settings(embedded: Machine):
             assert answer.headers["connection"] == "close"
             assert json.loads(content)["code"] == "body-too-slow"
             assert body.is_ended()
-
-
-def test_a_stream_of_events_outlives_the_limits():
-    with serving(body_s=SHORT_S) as served, Caller(served.port) as follower:
-        stream = follower.followed("/stream")
-        let_a_body_be_late(served)
-        let_a_body_be_late(served)
-        served.released.set()
-        assert stream.read() == b"second\n"
-
-
-@pytest.mark.parametrize("framing", ["Content-Length: 1000\r\n", "Transfer-Encoding: chunked\r\n"])
-def test_a_body_that_does_not_end_is_answered_408(framing: str):
-    with serving(body_s=SHORT_S) as served, Caller(served.port) as slow:
-        slow.ask("/length", method="POST", headers=framing)
-        slow.send("5\r\nabc")
-        told = slow.problem(408)
-        assert (told.type, told.code) == ("/problems/request-timeout", "body-too-slow")
-        assert slow.is_ended()
-        served.has_connections(0)
 
 
 def test_a_body_that_ends_after_its_answer_keeps_the_connection():

@@ -10,10 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.integration.service.fake_pipeline import UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
     PATIENCE_S,
-    REQUEST,
     Machine,
     Service,
     eventually,
@@ -38,16 +36,6 @@ def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: 
     assert problem["code"] == "image-truncated"
     assert problem["detail"] == "views.0.image: The picture ends too early."
     assert problem["remedy"] == "Send the whole file."
-
-
-def test_contradictory_measurements_end_with_a_422_that_names_the_field(service: Service):
-    job = service.ended(
-        service.post(request=REQUEST | {"weight_kg": UNNOTICED_WEIGHT_KG}).headers["Location"]
-    )
-    problem = job["problem"]
-    assert (problem["type"], problem["status"]) == ("/problems/unusable-input", 422)
-    assert (problem["field"], problem["code"]) == ("weight_kg", "contradictory-measurements")
-    assert problem["remedy"]
 
 
 def test_a_fault_of_ours_is_told_without_its_trace(service: Service):

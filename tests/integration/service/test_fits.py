@@ -11,7 +11,6 @@ import pytest
 
 from api_schemas.jobs import EventData, Fit
 from api_schemas.results import FitResult
-from api_schemas.service import BodyModels
 from service.jobs.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import STAGES, scripted_image
 from tests.integration.service.harness import (
@@ -58,24 +57,6 @@ def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service
         assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
 
 
-def test_known_measurements_reach_the_fit_and_the_result_says_they_were_given(service: Service):
-    known = {
-        "weight_kg": 82.5,
-        "measurements": {"hip_girth": 99, "inseam": {"value": 80, "standard_error": 1.5}},
-    }
-    job = service.ended(service.post(request=REQUEST | known).headers["Location"])
-    document = service.client.get(job["links"]["result"])
-    result = FitResult.model_validate_json(document.content)
-    given = {each.name: each for each in result.measurements if each.given}
-    assert {name: each.value for name, each in given.items()} == {
-        "weight": 82.5,
-        "hip_girth": 99.0,
-        "inseam": 80.0,
-    }
-    assert given["inseam"].standard_error == 1.5
-    assert len(given) < len(result.measurements)
-
-
 def test_events_tell_every_stage_in_order_and_end(service: Service):
     events = service.events(service.submit({"seconds": 0.5}))
     assert [int(event["id"]) for event in events] == list(range(1, len(events) + 1))
@@ -90,19 +71,6 @@ def test_events_tell_every_stage_in_order_and_end(service: Service):
     assert all(report["energies"]["total"] > 0.0 for report in reports)
     for event in events:
         EventData.model_validate_json(json.dumps(event["data"]))
-
-
-def test_two_listeners_hear_the_same(service: Service):
-    path = service.submit({"seconds": 0.5})
-    heard: list[list[dict[str, object]]] = []
-    listeners = [
-        threading.Thread(target=lambda: heard.append(service.events(path))) for _ in range(2)
-    ]
-    for listener in listeners:
-        listener.start()
-    for listener in listeners:
-        listener.join()
-    assert heard[0] == heard[1]
 
 
 def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(service: Service):
@@ -227,12 +195,6 @@ def test_a_full_queue_refuses_new_jobs_and_a_fit_counts_as_its_pictures(tmp_path
             assert int(refused.headers["Retry-After"]) > 0
         scopes = {folder.name for folder in (tmp_path / "blobs").glob("*/*")}
         assert len(scopes - {STORAGE_SCOPE}) == 2
-
-
-def test_the_bodies_there_are_can_be_asked_for(service: Service):
-    answer = service.client.get("/v1/body-models")
-    models = BodyModels.model_validate_json(answer.content)
-    assert [model.gender for model in models.models] == ["female", "male"]
 
 
 def test_several_pictures_are_fitted_together(either: Service):

@@ -9,7 +9,6 @@ import httpx
 import pytest
 
 from api_schemas.fit import FitRequest
-from tests.heif_files import EIGHT_BITS
 from tests.integration.service.fake_answers import GLB as GLB_CONTENT
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -19,7 +18,6 @@ from tests.integration.service.harness import (
     Service,
     eventually,
     running_service,
-    said_of_view,
 )
 from tests.integration.service.test_bad_input import checked
 
@@ -55,26 +53,6 @@ def test_who_does_not_prefer_a_jpeg_gets_the_picture_as_it_was_sent(service: Ser
     link = service.client.get(service.submit()).json()["links"]["files"]["views/0/image"]
     answer = service.client.get(link, headers={"Accept": accept})
     assert (answer.headers["content-type"], answer.content) == ("image/png", scripted_image())
-
-
-def test_a_picture_that_cannot_be_decoded_is_no_jpeg(service: Service):
-    wait_for_estimator(service)
-    link = service.client.get(service.submit({"damaged": True})).json()["links"]["files"][
-        "views/0/image"
-    ]
-    problem = checked(service.client.get(link, headers={"Accept": "image/jpeg"}), 422)
-    assert (problem.field, problem.code) == ("image", "image-damaged")
-
-
-def test_a_heic_is_kept_as_it_was_sent(service: Service):
-    answer = service.client.post("/v1/images", files={"image": ("photo.heic", EIGHT_BITS)})
-    kept = answer.raise_for_status().json()
-    assert (kept["media_type"], kept["width"], kept["height"]) == ("image/heic", 96, 128)
-    inside = {name: [0.2 * x, 0.3 * y] for name, (x, y) in POINTS.items()}
-    request = REQUEST | said_of_view(image_id=kept["id"], points=inside)
-    job = service.client.post("/v1/fits", json=request).raise_for_status().json()
-    sent = service.client.get(job["links"]["files"]["views/0/image"])
-    assert (sent.headers["content-type"], sent.content) == ("image/heic", EIGHT_BITS)
 
 
 def test_they_are_not_sent_twice_to_who_has_them(service: Service):

@@ -127,7 +127,7 @@ TRACES: dict[str, bytes] = {
     "picture": b"the-picture-itself",
     "picture's name": hashlib.sha256(scripted_image(SCRIPT)).hexdigest().encode(),
     "points": b"321.1234567",
-    "weight, in request and result": b"83.7654321",
+    "weight": b"83.7654321",
     "result": b"The energy stopped decreasing.",
     "receiver": b"erase-this-address",
     "receiver's secret": ERASED_SECRET.encode(),

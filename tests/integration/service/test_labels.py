@@ -54,18 +54,6 @@ def test_fits_are_listed_by_label(either: Service):
     assert listed(service, ben) == []
 
 
-def test_the_same_key_with_another_label_is_another_request(service: Service):
-    key = {"Idempotency-Key": uuid4().hex}
-    first = service.post(request={**REQUEST, "label": "A"}, headers=key)
-    assert (
-        service.post(request={**REQUEST, "label": "A"}, headers=key).json()["id"]
-        == first.json()["id"]
-    )
-    assert checked(service.post(request={**REQUEST, "label": "B"}, headers=key), 422).code == (
-        "idempotency-key-reused"
-    )
-
-
 @pytest.mark.parametrize("label", ["x" * 81, "two\nlines"])
 def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service, label):
     problem = checked(service.client.get("/v1/fits", params={"label": label}), 422)

@@ -99,12 +99,6 @@ def test_the_same_options_are_the_same_product_and_it_is_made_once(either: Servi
     assert made(either, elsewhere, asked)["id"] == first["id"]
 
 
-def test_a_product_may_be_waited_for(service: Service):
-    done = post(service, fitted(service), Prefer="wait=60")
-    assert (done.status_code, done.json()["state"]) == (200, "succeeded")
-    assert done.headers["Preference-Applied"] == "wait=60"
-
-
 def test_a_product_is_found_below_its_own_fit_alone(service: Service):
     one, other = fitted(service), fitted(service)
     product = made(service, one)
@@ -139,14 +133,6 @@ def test_a_request_at_fault_is_refused_with_the_field(
     service: Service, succeeded: str, body: object, status: int, code: str, field: str
 ):
     assert fault(post(service, succeeded, body)) == (status, code, field)
-
-
-def test_what_is_no_json_is_refused(service: Service, succeeded: str):
-    path = f"{succeeded}/products"
-    headers = {"Content-Type": "application/json"}
-    broken = service.client.post(path, content=b'{"kind"', headers=headers)
-    assert fault(broken)[:2] == (400, "invalid-json")
-    assert service.client.post(path, content=b"kind=pose").status_code == 415
 
 
 def test_a_file_comes_along_and_another_one_is_another_product(service: Service):

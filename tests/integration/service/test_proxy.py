@@ -3,7 +3,6 @@
 import contextlib
 import socket
 import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,8 +14,6 @@ from tests.integration.service.limited_server import Caller, Served, serving
 from tests.readme import block
 
 pytestmark = pytest.mark.usefixtures("no_fault_is_logged")
-
-SLOW = 100
 LIMIT_S = 2
 
 AROUND = """
@@ -75,34 +72,6 @@ def _listens(port: int) -> bool:
     return False
 
 
-def test_a_hundred_heads_that_do_not_end_are_ended_and_others_are_answered(tmp_path: Path):
-    with serving() as served, proxied(served, tmp_path) as port, contextlib.ExitStack() as stack:
-        slow = [stack.enter_context(Caller(port)) for _ in range(SLOW)]
-        began = time.monotonic()
-        for each in slow:
-            each.send("GET /quick HTTP/1.1\r\n")
-        _send_a_line_now_and_then(slow, began)
-        with Caller(port) as other:
-            other.ask("/quick")
-            assert other.answer()[1] == b"quick"
-        for each in slow:
-            _is_over(each)
-        served.has_connections(1)
-
-
-def test_a_hundred_bodies_that_do_not_come_are_ended_and_others_are_answered(tmp_path: Path):
-    with serving() as served, proxied(served, tmp_path) as port, contextlib.ExitStack() as stack:
-        slow = [stack.enter_context(Caller(port)) for _ in range(SLOW)]
-        for each in slow:
-            each.ask("/length", method="POST", headers="Content-Length: 1000\r\n")
-            each.send("some")
-        with Caller(port) as other:
-            other.ask("/quick")
-            assert other.answer()[1] == b"quick"
-        for each in slow:
-            _is_over(each)
-
-
 def test_a_body_that_comes_byte_by_byte_is_ended_by_the_service(tmp_path: Path):
     with (
         serving(body_s=LIMIT_S) as served,
@@ -125,17 +94,3 @@ def test_events_come_as_they_are_made(tmp_path: Path):
         stream = follower.followed("/stream")
         served.released.set()
         assert stream.read() == b"second\n"
-
-
-def _send_a_line_now_and_then(slow: list[Caller], began: float) -> None:
-    while time.monotonic() - began < LIMIT_S / 2:
-        for each in slow:
-            each.send("X-A: b\r\n")
-        time.sleep(LIMIT_S / 10)
-
-
-def _is_over(slow: Caller) -> None:
-    """Read what may be an answer, then the connection's end."""
-    with contextlib.suppress(ConnectionResetError):
-        while slow.socket.recv(100_000):
-            pass

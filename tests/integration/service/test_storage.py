@@ -29,7 +29,6 @@ from service.startup import run_command
 from tests.integration.service.harness import Machine, running_service
 from tests.integration.service.test_refused_start import SERVE, WORKER, assert_refused, run
 from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
-from tests.postgres import fresh_database
 
 
 @pytest.fixture(scope="module")
@@ -265,16 +264,6 @@ def test_of_several_that_start_at_once_with_storages_of_their_own_one_is_taken(
 
     with ThreadPoolExecutor(AT_ONCE) as starting:
         assert sorted(starting.map(start, range(AT_ONCE))) == [False] * (AT_ONCE - 1) + [True]
-
-
-def test_no_command_starts_with_another_folder(tmp_path: Path):
-    with fresh_database() as database_url:
-        with running_service(Machine(tmp_path / "ours", database_url), api_only=True):
-            pass
-        for command in (SERVE, WORKER):
-            done = run(command, tmp_path / "theirs", database_url=database_url)
-            line = assert_refused(done, naming=f"MAQUETTE_DATA_DIR={tmp_path / 'theirs'}:")
-            assert "not the storage of the database" in line
 
 
 def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):

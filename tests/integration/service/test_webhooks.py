@@ -66,13 +66,6 @@ def test_the_end_of_a_fit_is_told_signed_and_repeated_until_it_is_accepted(
     assert SECRET not in notices[0].body.decode()
 
 
-def test_failures_are_told_with_their_problem(service: Service, receiver: Receiver):
-    path = submitted(service, {"unusable": True}, url=receiver.url(), secret=SECRET)
-    event = told(receiver)[0].event
-    assert event["type"] == "fit.failed"
-    assert event["data"]["problem"] == service.job(path)["problem"]
-
-
 def test_a_canceled_job_is_told_and_an_erased_one_is_not(service: Service, receiver: Receiver):
     erased = submitted(service, {"seconds": 3600}, url=receiver.url("/erased"), secret=SECRET)
     canceled = submitted(service, {"seconds": 3600}, url=receiver.url(), secret=SECRET)

@@ -10,14 +10,10 @@ from api_schemas.results import ResultFile
 from service.jobs.attempts import COMPUTED, AttemptLog, checkpoint
 from service.jobs.database import open_database
 from service.jobs.records import (
-    ACTIVE,
-    TERMINAL,
-    TRANSITIONS,
     AttemptResult,
     Directive,
     Ending,
     Report,
-    may_become,
 )
 from service.jobs.rows import find_job
 from service.jobs.tables import EVENTS, JOBS, METADATA
@@ -58,28 +54,6 @@ def job(database: sa.Engine):
 def change(database: sa.Engine, **values: object) -> None:
     with database.begin() as connection:
         connection.execute(sa.update(JOBS).values(**values))
-
-
-def test_every_state_is_either_active_or_terminal():
-    assert set(JobState) == ACTIVE | TERMINAL
-    assert not ACTIVE & TERMINAL
-
-
-def test_a_terminal_state_is_never_left():
-    assert all(not TRANSITIONS[state] for state in TERMINAL)
-
-
-def test_every_terminal_state_can_be_reached_from_running():
-    assert TRANSITIONS[JobState.RUNNING] >= TERMINAL
-
-
-def test_nothing_succeeds_or_times_out_without_running():
-    assert may_become(JobState.SUCCEEDED) == {JobState.RUNNING}
-    assert may_become(JobState.TIMED_OUT) == {JobState.RUNNING}
-
-
-def test_a_job_whose_worker_stops_goes_back_to_the_queue():
-    assert may_become(JobState.QUEUED) == {JobState.RUNNING}
 
 
 def test_an_attempt_runs_and_ends(database):

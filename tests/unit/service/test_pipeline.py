@@ -8,8 +8,8 @@ import pytest
 
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress, Stage
-from fitter.request import Click, FitRequest, KnownMeasurement
-from fitter.vocabulary.choices import Clothing, Cues, Gender, OptimizerKind, ViewKind
+from fitter.request import Click, FitRequest
+from fitter.vocabulary.choices import Clothing, ViewKind
 from service.compute import pipeline
 from service.compute.tasks import OPTIONS, ChildSetup, Observe, UnusableInputError
 from service.jobs.inputs import SentPicture, named_pictures, pictures_of
@@ -60,19 +60,6 @@ def asked(monkeypatch: pytest.MonkeyPatch, fault: Exception, *, pictures: int) -
         ended_fit(pictures=pictures)
     (request,) = requests
     return request
-
-
-@pytest.mark.parametrize("pictures", [1, 2])
-def test_the_fitter_is_asked_for_one_person_in_all_pictures(monkeypatch, pictures):
-    request = asked(monkeypatch, EndedError(), pictures=pictures)
-    assert (request.person.gender, request.person.height_m) == (Gender.FEMALE, 1.65)
-    weight = KnownMeasurement(value=60.5, field="weight_kg")
-    assert request.person.measurements == {"weight": weight}
-    assert request.choices.optimizer is OptimizerKind.SIMPLEX
-    assert (request.choices.force, request.choices.max_pixels) == (True, 7)
-    assert [each.image for each in request.views] == [bytes([n]) for n in range(pictures)]
-    assert {each.mask for each in request.views} == {None}
-    assert {each.cues for each in request.views} == {Cues.SE}
 
 
 def test_of_every_picture_the_fitter_is_told_what_was_said_of_it(monkeypatch):

@@ -109,6 +109,20 @@ def test_a_folder_whose_lock_is_held_is_left_alone(short):
     assert folder.exists()
 
 
+def test_a_fork_server_that_outlived_its_worker_loads_nothing(short):
+    program = "import service.compute.preload; print('loaded')"
+    (short / LOCK).touch()
+    variables = {"TMPDIR": str(short), "NUMBA_CACHE_DIR": os.environ.get("NUMBA_CACHE_DIR", "")}
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=REPOSITORY,
+        env=os.environ | variables,
+        stdout=subprocess.PIPE,
+        check=True,
+    )
+    assert done.stdout == b""
+
+
 MOST = 5
 
 
