@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -205,26 +204,6 @@ def test_neither_api_nor_worker_nor_their_forks_run_what_lies_there(folder: Fold
         "multiprocessing.resource_tracker",
     ):
         assert process in started
-
-
-def test_a_worker_of_its_own_and_its_fork_server_run_nothing_either(folder: Folder):
-    with subprocess.Popen(
-        [MAQUETTE, "worker"],
-        cwd=folder.path,
-        env=folder.environment,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as worker:
-        assert worker.stderr is not None
-        try:
-            said = [next((line for line in worker.stderr if "is ready" in line), None)]
-        finally:
-            worker.send_signal(signal.SIGTERM)
-            worker.communicate(timeout=STOPPED_WITHIN_S)
-    assert not folder.mark.exists(), folder.mark.read_text()
-    assert said != [None]
-    assert folder.left() == ["maquette-data"]
-    assert "multiprocessing.forkserver" in folder.processes.read_text()
 
 
 def test_an_api_alone_and_its_estimator_run_nothing_either(folder: Folder):

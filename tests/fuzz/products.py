@@ -122,10 +122,6 @@ CHART_HEADS = (
     "size",
 )
 CHART_CELLS = ("94-98", "80-84", "96", "", "98-94", "nan", "1e9", "94–98", "94,5-98", '"', "-", "0")
-SUBPATHS = (
-    *("", "/", "/events", "/request"),
-    *("/files/pose.png", "/files/", "/files/..%2f..", "/nothing"),
-)
 
 
 def product_body(chance: random.Random) -> RawRequest:
@@ -168,22 +164,6 @@ def product_form(chance: random.Random) -> RawRequest:
     if chance.random() < 0.1:
         body = damaged(body, chance)
     return head_and_body(_path(chance), MULTIPART, body)
-
-
-def product_address(chance: random.Random) -> RawRequest:
-    """Any of the paths below a fit's products, with ids of this and of that."""
-    fit, product = (
-        known if chance.random() < 0.6 else chance.choice(IDS) for known in (FIT_ID, PRODUCT_ID)
-    )
-    method = chance.choice(("GET", "GET", "GET", "POST", "POST", "PUT", "DELETE"))
-    target = f"/v1/fits/{fit}/products"
-    # What is there already is to stay: only strangers and what cannot be are erased.
-    if method != "DELETE" or product != PRODUCT_ID:
-        target += f"/{product}{chance.choice(SUBPATHS)}"
-    if chance.random() < 0.2:
-        target += chance.choice(("?limit=0", "?limit=2", "?cursor=1-x", "?state=none", "?state="))
-    head = f"{method} {target} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n"
-    return RawRequest(content=f"{head}Connection: close\r\n\r\n".encode())
 
 
 def with_ids(request: RawRequest, ids: Mapping[str, str]) -> RawRequest:

@@ -2,7 +2,6 @@
 
 import json
 import random
-import string
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -10,7 +9,6 @@ from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
 from tests.fuzz.products import (
     UNKNOWN_ID,
-    product_address,
     product_body,
     product_form,
 )
@@ -41,7 +39,6 @@ SEEN = {
     "limb_facing": {"left_shin": "toward"},
 }
 VIEW = SEEN | {"light": {"kind": "point"}, "clothing": {"upper": "loose"}}
-SEEN_FROM = ("front", "side")
 FIT = PERSON | {"cues": "SE", "optimizer": "gauss_newton", "views": [VIEW]}
 DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
@@ -114,8 +111,6 @@ PATHS = (
     f"/v1/fits/{UNKNOWN_ID}/files/views/0/overlay.png",
     f"/v1/images/{'0' * 64}",
 )
-QUERIES = ("limit", "cursor", "state", "wait", "")
-PRINTABLE = string.ascii_letters + string.digits + string.punctuation
 METHODS = ("GET", "GET", "GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "BREW")
 
 
@@ -189,23 +184,6 @@ def headers(chance: random.Random) -> RawRequest:
     return RawRequest(content=content, is_well_framed=False)
 
 
-def address(chance: random.Random) -> RawRequest:
-    """A path or a query that leads nowhere."""
-    target = chance.choice(PATHS)
-    if chance.random() < 0.5:
-        target = "".join(
-            chance.choice((character, character, character, _escaped(chance)))
-            for character in target
-        )
-    else:
-        value = "".join(_escaped(chance) for _ in range(chance.randint(0, 12)))
-        number = chance.choice(("-1", "0", "1e9", "9" * 30, "nan", "MS9h", ""))
-        target += f"?{chance.choice(QUERIES)}={chance.choice((value, number))}"
-    method = chance.choice(("GET", "POST", "DELETE"))
-    head = f"{method} {target} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n"
-    return RawRequest(content=f"{head}Connection: close\r\n\r\n".encode())
-
-
 KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "picture, uploaded": (uploaded_picture, 0.15),
     "picture, fitted": (fitted_picture, 0.1),
@@ -214,13 +192,7 @@ KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "JSON body": (json_body, 0.2),
     "multipart body": (multipart_body, 0.13),
     "headers": (headers, 0.1),
-    "address": (address, 0.07),
     "product, JSON": (product_body, 0.05),
     "product, form": (product_form, 0.07),
-    "product, path": (product_address, 0.03),
 }
 """Makers of requests, and how often each is taken, in proportion."""
-
-
-def _escaped(chance: random.Random) -> str:
-    return chance.choice((f"%{chance.randrange(256):02X}", chance.choice(PRINTABLE), ".."))

@@ -27,8 +27,8 @@ CEILINGS: Final = {
     "page: lines of TypeScript and CSS": 15_000,
     "documentation: words": 32_900,
     "run-time dependencies": 24,
-    "tests: lines of Python": 55_600,
-    "tests: modules": 398,
+    "tests: lines of Python": 54_050,
+    "tests: modules": 397,
 }
 
 METHODS: Final = ("get", "post", "put", "patch", "delete", "head")

@@ -1,7 +1,6 @@
 """A real disk of a few megabytes that fills up: nothing is lost, and the reserve lets erase."""
 
 import contextlib
-import hashlib
 import json
 import os
 import subprocess
@@ -182,42 +181,6 @@ def test_what_waits_is_begun_when_there_is_room_again(
     for path in waiting:
         job = service.ended(path)
         assert (job["state"], job["attempt"]) == ("succeeded", 1)
-
-
-def test_in_the_reserve_all_can_be_read_and_erased_and_nothing_is_lost(
-    on_disk: tuple[SmallDisk, Service], tmp_path: Path
-):
-    note, gate = tmp_path / "pids", tmp_path / "gate"
-    disk, service = on_disk
-    ended = [service.submit(large(number)) for number in range(4)]
-    for path in ended:
-        service.ended(path)
-    image = upload(service, scripted_image(large(9))).headers["Location"]
-    running = service.submit({"gate": str(gate), "note_pid": str(note)})
-    waiting = [service.submit({"number": number}) for number in range(2)]
-    eventually(lambda: pids_noted(note), what="the fit runs")
-    disk.leave(SHORT)
-    assert_no_room(service.post())
-    assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
-    assert service.client.get("/metrics").status_code == 200
-    assert len(service.client.get("/v1/fits").json()["fits"]) == 7
-
-    before = blobs_of(disk)
-    for path in (ended[0], waiting[0], image, ended[1]):
-        assert service.client.delete(path).status_code == 204, path
-        assert service.client.get(path).status_code == 404
-        # Somebody else takes what has become free.
-        disk.leave(SHORT)
-    picture = hashlib.sha256(scripted_image(large(0))).hexdigest()
-    assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
-    assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
-
-    gate.touch()
-    disk.clear()
-    assert service.ended(running)["state"] == "succeeded"
-    assert service.ended(service.submit())["state"] == "succeeded"
-    for path in ended[2:]:
-        assert service.client.get(f"{path}/result").status_code == 200
 
 
 def test_what_expires_while_the_disk_is_short_makes_room(disk: SmallDisk):

@@ -2,7 +2,6 @@
 
 import io
 import re
-import shutil
 import subprocess
 import sys
 
@@ -80,26 +79,6 @@ def test_each_corner_shows_its_own_place_of_the_picture(tmp_path):
     texels = known.texels[known.texel_triangles]
     assert np.abs(mesh.visual.uv[mesh.faces] - texels).max() < MICROMETRE
     assert mesh.visual.material.image.size == (64, 64)
-
-
-@pytest.mark.skipif(shutil.which("assimp") is None, reason="no assimp to read the file with")
-@pytest.mark.parametrize("name", KNOWN)
-def test_assimp_finds_the_same_box_and_triangles(name, tmp_path):
-    known = KNOWN[name]()
-    for ending in ("obj", "ply", "stl"):
-        path = tmp_path / f"body.{ending}"
-        path.write_bytes(converted(known.glb, ending))
-        told = subprocess.run(
-            ["assimp", "info", str(path), "--raw"], capture_output=True, text=True, check=True
-        ).stdout
-        assert re.search(rf"Faces:\s+{len(known.triangles)}\b", told)
-        for word, corner in (
-            ("Minimum", known.vertices.min(axis=0)),
-            ("Maximum", known.vertices.max(axis=0)),
-        ):
-            found = re.search(rf"{word} point\s+\((\S+) (\S+) (\S+)\)", told)
-            assert found is not None
-            assert np.abs(np.array(found.groups(), float) - corner).max() < 2 * MICROMETRE
 
 
 def columns(element, *names: str) -> np.ndarray:

@@ -256,14 +256,6 @@ def test_vertices_keep_their_order_and_stand_on_the_ground():
     assert np.array_equal(indices.reshape(-1, 3), model.triangles)
 
 
-def test_provenance_and_extras_are_in_the_asset_and_in_the_scene():
-    model, glb = written()
-    for extras in (glb.document["asset"]["extras"], glb.document["scenes"][0]["extras"]):
-        assert extras["height_m"] == 1.7
-        assert extras["gender"] == model.gender
-        assert extras["frame"] == Frame.STANDING
-
-
 @pytest.mark.parametrize(
     ("vertices", "component"), [(65_534, 5123), (65_535, 5125), (70_000, 5125)]
 )

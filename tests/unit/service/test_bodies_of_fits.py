@@ -29,10 +29,6 @@ def test_the_named_poses_of_the_wire_are_the_fitter_s():
     assert {pose.value for pose in NamedPose} == {REST, *NAMED_POSES}
 
 
-def test_the_same_options_give_the_same_bytes():
-    assert made(kind="pose").files == made(kind="pose").files
-
-
 def test_a_named_pose_departs_where_it_is_told_to():
     standing = made(kind="pose", pose="standing").result.model_dump()["pose"]
     turned = made(kind="pose", pose="standing", rotations={"head": [0.0, 0.3, 0.0]})
@@ -107,20 +103,6 @@ def test_albedo_of_a_fit_without_light_is_refused_in_new_poses_too():
     with pytest.raises(UnusableInputError) as caught:
         made(kind="pose", colours="albedo")
     assert (caught.value.error.code, caught.value.error.field) == ("no-light", "colours")
-
-
-@pytest.mark.parametrize(
-    ("rotations", "field"),
-    [
-        ({"tail": [0.0, 0.0, 1.0]}, "rotations.tail"),
-        ({"left_shin": [3.0, 0.0, 0.0]}, "rotations.left_shin"),
-    ],
-)
-def test_a_pose_that_nobody_can_take_is_refused_with_the_field_and_what_to_do(rotations, field):
-    with pytest.raises(UnusableInputError) as caught:
-        made(kind="pose", rotations=rotations)
-    assert caught.value.error.field == field
-    assert caught.value.error.remedy
 
 
 MOTIONS = Path(__file__).parents[1] / "applications" / "data" / "bvh"
@@ -203,12 +185,6 @@ def test_a_factor_that_turns_the_surface_inside_out_is_refused_with_the_largest(
         made(kind="caricature", factor=99.0)
     assert caught.value.error.field == "factor"
     assert caught.value.error.largest < 99.0
-
-
-def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
-    with pytest.raises(UnusableInputError) as caught:
-        made(kind="texture", colours="albedo")
-    assert caught.value.error.field == "colours"
 
 
 def test_the_sizes_of_textures_on_the_wire_are_the_fitter_s():

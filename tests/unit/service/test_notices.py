@@ -3,8 +3,6 @@
 import asyncio
 import base64
 import datetime
-import hashlib
-import hmac
 import http.server
 import ipaddress
 import socket
@@ -169,27 +167,6 @@ def test_the_signature_is_the_one_of_the_standards_example():
         "webhook-timestamp": "1614265330",
         "webhook-signature": "v1,g0hM9SsE+OTPJTGt/tmIKtSyZlE3uFJELVlNIOLJ1OE=",
     }
-
-
-@pytest.mark.parametrize("change", ["id", "timestamp", "body", "secret"])
-def test_the_signature_covers_everything(change):
-    values = {"notice_id": "a", "timestamp": 1, "body": b"{}", "secret": SECRET}
-    changed = {
-        "id": {"notice_id": "b"},
-        "timestamp": {"timestamp": 2},
-        "body": {"body": b"[]"},
-        "secret": {"secret": "whsec_" + base64.b64encode(bytes(24)).decode()},
-    }[change]
-    one, other = signed_headers(**values), signed_headers(**(values | changed))
-    assert one["webhook-signature"] != other["webhook-signature"]
-
-
-def test_the_key_is_what_the_secret_encodes():
-    key = bytes(range(32))
-    secret = "whsec_" + base64.b64encode(key).decode()
-    headers = signed_headers(notice_id="n", timestamp=7, body=b"x", secret=secret)
-    expected = base64.b64encode(hmac.new(key, b"n.7.x", hashlib.sha256).digest()).decode()
-    assert headers["webhook-signature"] == f"v1,{expected}"
 
 
 @pytest.mark.parametrize(
