@@ -83,6 +83,7 @@ def parser() -> argparse.ArgumentParser:
         help="measure people behind things, cropped, told wrongly, in the dark: errors, findings",
     )
     add("--kind", action="append", choices=KINDS, metavar="KIND", help="with --spoilt: these alone")
+    add("--outfits", type=Path, metavar="DIR", help="fit real people in two outfits each")
     add(
         "--scan",
         action="store_true",

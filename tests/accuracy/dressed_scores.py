@@ -52,7 +52,10 @@ def _score(picture: TruePicture, said: str, told: Told) -> DressedScore:
     fitted = fit_picture(picture, Cues.SES, told)
     overlaps: Mapping[str, float | None] = {}
     if said == NOTHING_SAID and picture.labels is not None:
-        overlaps = label_overlaps(seen_labels(fitted), picture.labels)
+        overlaps = label_overlaps(
+            seen_labels(fitted.result, picture.request.views[0], picture.labels.shape),
+            picture.labels,
+        )
     return DressedScore(said=said, outfit=picture.outfit, scored=score(fitted), overlaps=overlaps)
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from fitter.vocabulary.choices import Clothing
 from tests.accuracy.cases import PEOPLE
 from tests.accuracy.clothing_table import case_heading, clothing_lines, underwear_lines
 from tests.accuracy.clothing_table import case_lines as dressed_lines
@@ -12,6 +13,7 @@ from tests.accuracy.dressed import MISSING, dressed_names
 from tests.accuracy.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.accuracy.nulls import null_rows, null_table
 from tests.accuracy.paper_method import method_errors, method_lines
+from tests.accuracy.real_outfits import outfit_lines, outfits_of
 from tests.accuracy.runs import of_each
 from tests.accuracy.scans import pairs_of, scan_lines, scanned
 from tests.accuracy.scene import Case, Half, Kind, Series
@@ -115,12 +117,19 @@ def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
     return scores
 
 
+def outfits(choice: Choice) -> None:
+    """Real people in two outfits each, in a folder."""
+    clothing = Clothing(choice.options.clothing or Clothing.AUTO)
+    _print(outfit_lines(outfits_of(choice.options.outfits, clothing, choice.jobs)))
+
+
 Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
     "paper": paper,
     "spoilt": spoilt,
     "scan": scan,
+    "outfits": outfits,
 }
 
 

@@ -10,12 +10,14 @@ from fitter.body.model import regress
 from fitter.fits.clothing import FACE_CLICKS
 from fitter.observation.pixels import linear_from_display
 from fitter.render.rasterizer import render
+from fitter.request import View
+from fitter.result import FitResult
 from fitter.segmentation.coverage import coverage
 from fitter.segmentation.skin_colour import PersonRegions, face_point, nearest_part, skin_map
 from fitter.vocabulary.choices import BodyRegion, Covering
 from tests.accuracy.landmark_points import packaged_model
 from tests.accuracy.scene import Label
-from tests.accuracy.scoring import Fitted, resampled, working_scale
+from tests.accuracy.scoring import resampled, working_scale
 
 UPPER_PARTS = frozenset({"chest", "spine", "neck", "head", "arm", "forearm", "hand"})
 """Cloth on other parts, but for feet, belongs to what covers the lower body."""
@@ -33,12 +35,12 @@ CLASSES: Mapping[str, frozenset[int]] = {
 Labels = UInt8[np.ndarray, "h w"]
 
 
-def seen_labels(fitted: Fitted) -> Labels:
-    """Labels by the code that tells a fit where skin shows, given the body it found.
+def seen_labels(result: FitResult, asked: View, shape: tuple[int, ...]) -> Labels:
+    """Labels (h, w) by the code that tells a fit where skin shows, given the body it found.
 
     Shoes are feet that the fit calls covered. Of people taken to be in underwear all is bare.
     """
-    result, view = fitted.result, fitted.result.views[0]
+    view = result.views[0]
     model = packaged_model(result.person.gender)
     shown = render(view.found.posed_vertices, model.triangles, view.camera)
     faces = shown.face_ids
@@ -46,7 +48,7 @@ def seen_labels(fitted: Fitted) -> Labels:
         person=view.pictures.segmentation,
         parts=np.where(faces >= 0, model.part_of_triangle[faces], -1),
         part_names=model.part_names,
-        face=face_point(_clicked_face(fitted), _nose(fitted)),
+        face=face_point(_clicked_face(result, asked), _nose(result)),
         pixels_per_metre=view.camera.focal_length_px / float(shown.vertices[:, 2].mean()),
     )
     skin = skin_map(linear_from_display(view.pictures.image), regions)
@@ -61,9 +63,7 @@ def seen_labels(fitted: Fitted) -> Labels:
     labels[kind == "head"] = Label.HAIR
     labels[bare & ((kind != "head") | skin.coloured)] = Label.SKIN
     labels[~regions.person] = Label.BACKGROUND
-    true = fitted.picture.labels
-    assert true is not None
-    return resampled(labels.astype(np.uint8), working_scale(result), true.shape)
+    return resampled(labels.astype(np.uint8), working_scale(result), shape)
 
 
 def label_overlaps(found: Labels, true: Labels) -> dict[str, float | None]:
@@ -80,18 +80,17 @@ def _of(labels: Labels, wanted: frozenset[int]) -> Mask:
     return np.isin(labels, list(wanted))
 
 
-def _clicked_face(fitted: Fitted) -> np.ndarray:
+def _clicked_face(result: FitResult, asked: View) -> np.ndarray:
     """In working pixels."""
-    clicks = fitted.picture.request.views[0].clicks
-    found = [clicks.get(name) for name in FACE_CLICKS]
+    found = [asked.clicks.get(name) for name in FACE_CLICKS]
     places = [(each.x, each.y) for each in found if each is not None and not each.occluded]
-    return working_scale(fitted.result) * np.array(places).reshape(-1, 2)
+    return working_scale(result) * np.array(places).reshape(-1, 2)
 
 
-def _nose(fitted: Fitted) -> np.ndarray | None:
+def _nose(result: FitResult) -> np.ndarray | None:
     """Of the body found; None outside the picture."""
-    view = fitted.result.views[0]
-    landmarks = packaged_model(fitted.result.person.gender).landmarks
+    view = result.views[0]
+    landmarks = packaged_model(result.person.gender).landmarks
     point = regress(landmarks, view.found.posed_vertices)[landmarks.names.index("nose")]
     x, y = view.camera.project(point[None])[0]
     inside = 0 <= x < view.camera.width and 0 <= y < view.camera.height

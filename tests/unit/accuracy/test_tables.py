@@ -1,9 +1,12 @@
 """Sums, their standard errors over people, and shares of intervals, by hand."""
 
-from fitter.vocabulary.choices import Cues
+from dataclasses import replace
+
+from fitter.vocabulary.choices import Cues, Gender
 from tests.accuracy.cases import CASES, DEMO
 from tests.accuracy.clothing_table import clothing_lines, null_lines, underwear_lines
 from tests.accuracy.dressed_scores import NOTHING_SAID, DressedScore
+from tests.accuracy.real_outfits import Dressed, outfit_lines
 from tests.accuracy.scans import Scanned, Views, scan_lines
 from tests.accuracy.scene import Case, Half
 from tests.accuracy.scoring import Scored
@@ -185,3 +188,30 @@ def test_dressed_people_are_summed_up_together_by_garment_and_beside_themselves_
 def test_what_is_known_without_a_picture_has_no_error():
     (known,) = null_lines({"null": [{**dict.fromkeys(KEYS, 1.0), "weight": 0.0}]})
     assert known.split()[-3:] == ["-", "1.0", "(+1.0)"]
+
+
+def test_one_kind_of_fit_alone_can_be_summed_up():
+    assert all("nan" not in line for line in summary_lines([scored_picture(Cues.SE, 1.0)]))
+
+
+def test_a_jacket_that_moves_the_body_is_told():
+    inner = Dressed(
+        person="a",
+        gender=Gender.MALE,
+        outfit="Inner",
+        values={key: 80.0 for _, key, _ in MEASUREMENTS},
+        errors={key: 3.0 for _, key, _ in MEASUREMENTS},
+        findings=(),
+        overlaps=dict.fromkeys(CLASSES, 0.5),
+    )
+    other = replace(inner, person="b", values={key: 90.0 for _, key, _ in MEASUREMENTS})
+    outer = [
+        replace(each, outfit="Outer", values={k: v + added for k, v in each.values.items()})
+        for each, added in ((inner, 4.0), (other, 12.0))
+    ]
+    lines = outfit_lines([inner, outer[0], other, outer[1]])
+    (waist,) = (line for line in lines if line.startswith("waist cm"))
+    assert "mean  +8.0, absolute  8.0, worst  12" in waist
+    assert "within 1.96 stated 50%" in waist
+    assert "correlation within sex 1.00; stated 3.0, 3.0" in waist
+    assert any("skin 0.50" in line for line in lines)
