@@ -12,9 +12,10 @@ from fitter.fits.error_widening import HARM, widened_covariance
 from fitter.fits.plausibility import Plausibility
 from fitter.fits.verdict import (
     BROAD_HEAD,
-    EARS,
+    FAR_EARS,
     LEAST_OFF_M2,
     NARROW_HEAD,
+    NEAR_EARS,
     contradiction,
     nearest_parts,
     obstruction,
@@ -220,7 +221,7 @@ def test_a_part_of_whose_outline_hardly_anything_is_doubted_is_not_named():
     assert shares(finding).keys() == {"thighs"}
 
 
-BROAD, NARROW = 1.1 * EARS * STATURE_PX, 0.9 * EARS * STATURE_PX
+BROAD, NARROW = 1.05 * FAR_EARS * STATURE_PX, 0.95 * NEAR_EARS * STATURE_PX
 
 
 def squeeze(breadth: float | None, ears_px: float, *, shoulder_px: float = 124.0) -> str | None:
