@@ -156,7 +156,7 @@ def facing_camera(vertices, normals, visible, least, result):
         result[i] = -along / sqrt(x * x + y * y + z * z) > least
 
 
-_FAR_REACHES = 2.0
+_FAR_REACHES = 1.5
 
 
 @no_type_check
@@ -168,8 +168,8 @@ def clothed_mismatch(pixels, clothes, cost, ease_cost):
     the cost of the ease its nearest cloth would have. A pixel of the region that the model does not
     cover costs the former to the extent that it is bare and the latter to the extent that it is
     cloth; within the mean ease, which is the usual one times the fullness, the latter is a gain.
-    What no ease explains costs at least the floor, so that a body does not become cheaper by
-    leaving its clothes.
+    Beyond one and a half times the reach each pixel costs what it does there, so that a body does
+    not become cheaper by leaving its clothes.
     """
     model, image, to_image, confidence = pixels
     cloth, full = clothes
@@ -195,11 +195,10 @@ def clothed_mismatch(pixels, clothes, cost, ease_cost):
                 bound = floor
             # Distances to the model are between centres, half a pixel more than to its outline.
             beyond = mean + d if covered else d - 0.5 - mean
-            damping = 1.0 + beyond * beyond * inverse_reach
-            ease = beyond / (damping * damping)
             if not covered:
                 bound *= 1.0 - share
-                if beyond > _FAR_REACHES * reach and bound < floor:
-                    bound = floor
+                beyond = min(beyond, _FAR_REACHES * reach)
+            damping = 1.0 + beyond * beyond * inverse_reach
+            ease = beyond / (damping * damping)
             total += confidence[i, j] * (tight * bound + loose * share * ease)
     return total

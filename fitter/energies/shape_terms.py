@@ -58,11 +58,11 @@ class ShapePrior:
         return self.precision @ (shape - self.mean)
 
 
-def population_prior(count: int) -> ShapePrior:
+def population_prior(count: int, precision: float = POPULATION_PRECISION) -> ShapePrior:
     """The prior of people at large over ``count`` coefficients (section 4), wider than N(0, I)."""
-    precision = POPULATION_PRECISION * np.eye(count)
-    precision[0, 0] = 0.0
-    return ShapePrior(mean=np.zeros(count), precision=precision)
+    matrix = precision * np.eye(count)
+    matrix[0, 0] = 0.0
+    return ShapePrior(mean=np.zeros(count), precision=matrix)
 
 
 def no_prior(count: int) -> ShapePrior:

@@ -11,7 +11,7 @@ from fitter.energies.edges import edge_cost_map
 from fitter.energies.landmarks import SlantEvidence, click_evidence
 from fitter.energies.objective import JointObjective, Objective
 from fitter.energies.scales import scales_at
-from fitter.energies.shape_terms import population_prior
+from fitter.energies.shape_terms import POPULATION_PRECISION, population_prior
 from fitter.energies.terms import PictureEvidence
 from fitter.evidence.doubtful_outline import outline_confidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
@@ -46,6 +46,9 @@ _DOUBTFUL_MARGIN_M = 0.05
 
 _EDGE_THRESHOLD_M = 0.03
 """Largest distance at which an image edge still attracts a model edge."""
+
+UNDER_CLOTHES_PRECISION = 1.0
+"""Precision of the population's prior where every outline is that of clothes: as it was learned."""
 
 SHARED_ERROR = 0.2
 """Correlation of the errors of two pictures that are searched together. It is less than that of
@@ -131,9 +134,15 @@ def of_person(known: KnownPerson, pictures: Sequence[Objective]) -> JointObjecti
     return JointObjective(
         views=tuple(pictures),
         weight=counted_as(len(pictures), shared=SHARED_ERROR) / len(pictures),
-        shape_prior=population_prior(len(known.shape)),
+        shape_prior=population_prior(len(known.shape), prior_precision(pictures)),
         attributes=known.attributes,
     )
+
+
+def prior_precision(pictures: Sequence[Objective]) -> float:
+    """Precision of the population's prior, by whether any picture shows the body's outline."""
+    is_clothed = all(each.evidence.clothes is not None for each in pictures)
+    return UNDER_CLOTHES_PRECISION if is_clothed else POPULATION_PRECISION
 
 
 def with_silhouette(

@@ -6,6 +6,7 @@ from typing import Final
 
 from fitter.arrays import Shape, ShapeCovariance
 from fitter.energies.objective import JointCandidate
+from fitter.energies.shape_terms import population_prior
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
 from fitter.fits.equipment import PACKAGED, Equipment
@@ -19,7 +20,7 @@ from fitter.fits.paper import (
     with_height_found,
     without_standard_errors,
 )
-from fitter.fits.picture_objective import of_person
+from fitter.fits.picture_objective import of_person, prior_precision
 from fitter.fits.progress import Observer, Stage, StageClock, ViewClock, ignore_progress
 from fitter.fits.reporting import (
     fit_warnings,
@@ -192,11 +193,14 @@ def _alone(subject: Subject, pictures: Sequence[PictureSearch]) -> CombinedShape
     if len(pictures) == 1:
         return None
     covariances: list[ShapeCovariance] = []
+    prior = prior_precision([each.objective for each in pictures])
     for picture in pictures:
         about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
+        about = replace(about, shape_prior=population_prior(len(subject.known.shape), prior))
         (certain,) = certainty(about, about.evaluate([picture.body]))
         covariances.append(shape_covariance(certain, height_variance=subject.known.height_variance))
-    return combined_shape([each.body.parameters.shape for each in pictures], covariances)
+    shapes = [each.body.parameters.shape for each in pictures]
+    return combined_shape(shapes, covariances, prior=prior)
 
 
 def _with_wider_errors(

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape, ShapeCovariance
-from fitter.energies.shape_terms import POPULATION_PRECISION, height_extrapolation, population_prior
+from fitter.energies.shape_terms import height_extrapolation, population_prior
 
 SHARED_ERROR = 0.4
 """Correlation of the errors of two pictures of one person, by which k pictures count as
@@ -66,9 +66,12 @@ class CombinedShape:
 
 
 def combined_shape(
-    shapes: Sequence[Shape], covariances: Sequence[ShapeCovariance]
+    shapes: Sequence[Shape], covariances: Sequence[ShapeCovariance], *, prior: float
 ) -> CombinedShape:
-    """The most probable shape of a person by two pictures or more, fitted each by itself."""
+    """The most probable shape of a person by two pictures or more, fitted each by itself.
+
+    ``prior`` is the precision of the population's prior under which the covariances were found.
+    """
     origin = shapes[0]
     values, vectors = np.linalg.eigh(covariances[0])
     # Orthonormal directions of the shape that were not given.
@@ -77,12 +80,14 @@ def combined_shape(
     count = len(shapes)
     # The fits' covariances are wider where the height is unusual, and so is their prior's.
     wider = height_extrapolation(float(origin[0]))
-    precision = directions.T @ population_prior(len(origin)).precision @ directions / wider
+    unscaled = population_prior(len(origin), prior).precision
+    precision = directions.T @ unscaled @ directions / wider
     prior_step = -directions.T @ origin
     informations = [_information(each, directions, precision) for each in covariances]
     matrix, pull = _summed(informations, steps, precision, prior_step)
     agreements = [
-        _agreement(index, informations, steps, precision, prior_step) for index in range(count)
+        _agreement(index, informations, steps, precision, prior_step, prior)
+        for index in range(count)
     ]
     return CombinedShape(
         shape=origin + directions @ (np.linalg.inv(matrix) @ pull),
@@ -118,6 +123,7 @@ def _agreement(
     steps: Sequence[Float[np.ndarray, " d"]],
     precision: Float[np.ndarray, "d d"],
     prior_step: Float[np.ndarray, " d"],
+    prior: float,
 ) -> float:
     """Probability of so large a difference between one picture and the others together."""
     others = [other for other in range(len(steps)) if other != index]
@@ -136,7 +142,7 @@ def _agreement(
     kept, kept_by_others = identity - own @ precision, identity - rest_of @ precision
     unlike = kept - kept_by_others
     noise = (1.0 - SHARED_ERROR) * (kept @ own + kept_by_others @ rest_of)
-    spread = noise + POPULATION_PRECISION * unlike @ np.linalg.solve(precision, unlike.T)
+    spread = noise + prior * unlike @ np.linalg.solve(precision, unlike.T)
     values, vectors = np.linalg.eigh(0.5 * (spread + spread.T))
     squares = (vectors.T @ (steps[index] - rest)) ** 2 / (values + _LEAST_SPREAD**2)
     return _as_extreme(squares / _LONGER_TAILS)

@@ -157,6 +157,7 @@ POOR_LIGHT: Final = 0.15
 
 _IN_POOR_LIGHT: Final = (0.4, 2.5)
 _BARE_FROM: Final = 0.3
+_FOREARMS_BARE: Final = (0.6, 2.5)
 _LOWEST, _HIGHEST = 0.005, 0.995
 
 _UNDER_BOTTOM: Final = frozenset({"pelvis", "thigh", "shin", "foot"})
@@ -273,6 +274,16 @@ def skin_shares(skin: SkinMap, regions: PersonRegions) -> dict[str, float]:
         if np.count_nonzero(seen) >= LEAST_SAMPLES:
             shares[region] = float(np.mean(skin.coloured[seen]))
     return shares
+
+
+def bare_forearms(shown: float) -> float:
+    """Probability that forearms are bare, by the share of them that shows skin.
+
+    In the shade and at their rims bare ones may show little of it: those of 16 real people have
+    0.15 to 0.97, and but one of 16 in long sleeves less than 0.14.
+    """
+    bare, covered = _density(_FOREARMS_BARE, shown), _density(_NONE, shown)
+    return bare / (bare + covered)
 
 
 def _subsets(covers: frozenset[Covers]) -> list[frozenset[Covers]]:

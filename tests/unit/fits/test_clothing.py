@@ -8,14 +8,16 @@ import pytest
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.fits.clothing import (
     LONG_SLEEVED,
+    LONG_TOP,
     SHORT_SLEEVED,
+    SHORT_TOP,
     USUAL_EASE_M,
     looks_undressed,
     share_by_sleeves,
     usual_fullness,
 )
 from fitter.fits.clothing_report import worn_regions
-from fitter.segmentation.coverage import Coverage
+from fitter.segmentation.coverage import Coverage, bare_forearms
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering, Gender
 from tests.accuracy.landmark_points import packaged_model
@@ -187,10 +189,19 @@ def forearms(*, seen: bool) -> PersonRegions:
 
 
 @pytest.mark.parametrize(
-    ("bare", "share"),
-    [(1.0, SHORT_SLEEVED), (0.0, LONG_SLEEVED), (0.5, (SHORT_SLEEVED + LONG_SLEEVED) / 2.0)],
+    ("bare", "trunk", "sleeves"),
+    [
+        (1.0, SHORT_TOP, SHORT_SLEEVED),
+        (0.0, LONG_TOP, LONG_SLEEVED),
+    ],
 )
-def test_a_top_that_covers_forearms_is_wider(bare, share):
+def test_a_top_that_covers_forearms_is_wider(bare, trunk, sleeves):
     everywhere = np.full((20, 40), bare, dtype=np.float32)
-    assert share_by_sleeves(forearms(seen=True), everywhere) == pytest.approx(share)
-    assert share_by_sleeves(forearms(seen=False), everywhere) == 1.0
+    found = share_by_sleeves(forearms(seen=True), everywhere)
+    assert found == pytest.approx((trunk, sleeves), rel=0.15)
+    assert share_by_sleeves(forearms(seen=False), everywhere) == (1.0, 1.0)
+
+
+def test_forearms_in_the_shade_are_bare_all_the_same():
+    assert bare_forearms(0.03) < 0.1
+    assert bare_forearms(0.2) > 0.8

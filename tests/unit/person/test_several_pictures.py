@@ -12,29 +12,30 @@ from fitter.person.several_pictures import (
 N = 6
 
 
-def fit_of(shape, told):
+def fit_of(shape, told, prior=POPULATION_PRECISION):
     """Shape and covariance of a fit of someone by a picture that says so much along each axis.
 
     Its minimum is where prior and picture balance.
     """
     told = np.asarray(told, dtype=float)
-    found = np.concatenate([[0.3], told * shape[1:] / (told + POPULATION_PRECISION)])
-    return found, np.diag([0.0, *(1.0 / (told + POPULATION_PRECISION))])
+    found = np.concatenate([[0.3], told * shape[1:] / (told + prior)])
+    return found, np.diag([0.0, *(1.0 / (told + prior))])
 
 
-def combined(*fits) -> CombinedShape:
+def combined(*fits, prior=POPULATION_PRECISION) -> CombinedShape:
     shapes, covariances = zip(*fits, strict=True)
-    return combined_shape(shapes, covariances)
+    return combined_shape(shapes, covariances, prior=prior)
 
 
 SHAPE = np.array([0.3, 1.5, -0.8, 0.4, -2.0, 0.7])
 FRONT, SIDE = [8.0, 8.0, 0.0, 0.0, 1.0], [0.0, 0.0, 9.0, 9.0, 1.0]
 
 
-def test_what_one_picture_does_not_tell_comes_from_the_other():
-    both = combined(fit_of(SHAPE, FRONT), fit_of(SHAPE, SIDE))
+@pytest.mark.parametrize("prior", [POPULATION_PRECISION, 1.0])
+def test_what_one_picture_does_not_tell_comes_from_the_other(prior):
+    both = combined(fit_of(SHAPE, FRONT, prior), fit_of(SHAPE, SIDE, prior), prior=prior)
     told = (np.array(FRONT) + SIDE) / (1.0 + SHARED_ERROR)
-    np.testing.assert_allclose(both.shape[1:], told * SHAPE[1:] / (told + POPULATION_PRECISION))
+    np.testing.assert_allclose(both.shape[1:], told * SHAPE[1:] / (told + prior))
     assert both.shape[0] == 0.3
 
 
