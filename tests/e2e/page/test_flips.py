@@ -31,7 +31,7 @@ def sent_again(page: Page) -> Request:
     with page.expect_request(
         lambda request: request.method == "POST" and request.url.endswith("/v1/fits")
     ) as sent:
-        page.get_by_role("button", name="Fit again", exact=True).click()
+        page.get_by_role("button", name="Measure again", exact=True).click()
     return sent.value
 
 
@@ -61,8 +61,8 @@ def test_a_limb_that_is_clicked_is_seen_turned_and_fitted_again(
     expect(visitor.body).to_have_attribute("data-limbs", f"right_forearm right_forearm {wanted}")
     expect(limb(page, "Right forearm")).to_have_attribute("aria-pressed", "true")
     expect(limb(page, "Right forearm")).to_contain_text(f"now {SAYS[wanted]}")
-    expect(page.get_by_text("Preview, not fitted yet")).to_be_visible()
-    expect(page.get_by_text("still those of the fit").first).to_be_visible()
+    expect(page.get_by_text("Preview, not measured yet")).to_be_visible()
+    expect(page.get_by_text("still those from before").first).to_be_visible()
     page.get_by_role("heading", name="The body", exact=True).hover()
     changed = np.abs(visitor.pixels(visitor.body) - before).max(axis=2) > 12
     height, width = changed.shape
@@ -77,7 +77,7 @@ def test_a_limb_that_is_clicked_is_seen_turned_and_fitted_again(
     visitor.wait_for_result()
     fresh = page.locator("[data-fit]").get_attribute("data-fit")
     assert facings(visitor, fresh)["right_forearm"] == wanted
-    page.get_by_role("button", name=re.compile("^Fits")).click()
+    page.get_by_role("button", name=re.compile("^History")).click()
     for fit in (finished_fit, fresh):
         expect(page.locator(f'a[href="#/fits/{fit}"]')).to_be_visible()
 
@@ -99,8 +99,8 @@ def test_a_preview_is_taken_back_and_turned_bodies_take_clicks_too(
     expect(visitor.body).to_have_attribute("data-limbs", re.compile("thigh (toward|away)$"))
     page.get_by_role("button", name="Take back").click()
     expect(visitor.body).to_have_attribute("data-limbs", "none")
-    expect(page.get_by_text("Preview, not fitted yet")).to_have_count(0)
-    expect(page.get_by_role("button", name="Correct something")).to_be_visible()
+    expect(page.get_by_text("Preview, not measured yet")).to_have_count(0)
+    expect(page.get_by_role("button", name="Adjust", exact=True)).to_be_visible()
     assert (np.abs(visitor.pixels(visitor.body) - before).max(axis=2) > 12).mean() < 0.002
     middle = box["x"] + at["x"], box["y"] + at["y"]
     page.mouse.move(*middle)
@@ -108,7 +108,7 @@ def test_a_preview_is_taken_back_and_turned_bodies_take_clicks_too(
     page.mouse.move(middle[0] + 60, middle[1])
     page.mouse.up()
     visitor.wait_for_change(visitor.body, before, share=0.01)
-    expect(page.get_by_text("Preview, not fitted yet")).to_have_count(0)
+    expect(page.get_by_text("Preview, not measured yet")).to_have_count(0)
 
 
 def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
@@ -145,7 +145,7 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
     page.keyboard.press("Enter")
     expect(visitor.body).to_have_attribute("data-limbs", "right_shin")
     page.keyboard.press("Enter")
-    again = page.get_by_role("button", name="Fit again", exact=True)
+    again = page.get_by_role("button", name="Measure again", exact=True)
     for _ in range(60):
         page.keyboard.press("Tab")
         if again.evaluate("each => each === document.activeElement"):

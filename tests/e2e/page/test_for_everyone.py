@@ -31,7 +31,7 @@ def test_axe_finds_nothing_serious_from_start_to_result(
         page.get_by_text("All points").click()
         page.get_by_text("Known measurements").click()
         page.get_by_text("Keys and gestures").click()
-        page.get_by_role("heading", name="What the fit goes by").click()
+        page.get_by_role("heading", name="Lens, shading and mask").click()
         expect(page.locator(".live-outline")).to_be_attached()
         assert serious_findings(page, axe) == []
         page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
@@ -39,7 +39,7 @@ def test_axe_finds_nothing_serious_from_start_to_result(
         for kind in ("Print", "Animation", "Other pose", "Texture", "Caricature", "Clothing size"):
             visitor.choose(kind)
             assert serious_findings(page, axe) == [], kind
-        page.get_by_role("button", name="Fits").click()
+        page.get_by_role("button", name="History").click()
         expect(page.get_by_role("dialog")).to_be_visible()
         assert serious_findings(page, axe) == []
 
@@ -57,7 +57,7 @@ def test_a_phone_stacks_the_page_and_takes_touches(
         page.get_by_role("radio", name="Male", exact=True).tap()
         expect(page.locator(".live-outline")).to_be_attached()
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
-        expect(page.get_by_role("button", name="Fit the body")).to_be_in_viewport()
+        expect(page.get_by_role("button", name="Measure", exact=True)).to_be_in_viewport()
         page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
         visitor.wait_for_result()
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
@@ -129,7 +129,7 @@ def test_the_page_asks_for_the_key_the_service_wants(
             visitor.submit()
             expect(page.get_by_role("button", name="Cancel")).to_be_visible()
             page.get_by_role("button", name="Cancel").click()
-            expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
+            expect(page.get_by_role("heading", name="Canceled")).to_be_visible()
 
 
 def test_problems_are_told_where_they_arise(visitor: Visitor, tmp_path: Path):
@@ -147,7 +147,7 @@ def test_problems_are_told_where_they_arise(visitor: Visitor, tmp_path: Path):
     visitor.click_points(LIMBS)
     expect(page.get_by_role("alert").first).to_contain_text("eight")
     page.goto(f"{visitor.origin}/#/fits/00000000-0000-0000-0000-000000000000")
-    expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
+    expect(page.get_by_role("heading", name="This result is gone")).to_be_visible()
 
 
 def test_another_picture_without_a_lens_in_it_is_said_so(visitor: Visitor, tmp_path: Path):
@@ -158,7 +158,7 @@ def test_another_picture_without_a_lens_in_it_is_said_so(visitor: Visitor, tmp_p
     page = visitor.page
     page.get_by_label("Choose a picture").set_input_files(file)
     visitor.correct()
-    page.get_by_role("heading", name="What the fit goes by").click()
+    page.get_by_role("heading", name="Lens, shading and mask").click()
     expect(page.get_by_text("The picture names none: 50 mm are assumed.")).to_be_visible()
     page.get_by_label("Focal length, as on 35 mm film").fill("4.4")
     expect(page.get_by_text("Chosen by eye.")).to_be_visible()
@@ -183,7 +183,7 @@ def test_escape_leaves_the_question_whether_to_delete(visitor: Visitor, finished
     page = visitor.page
     page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
     visitor.wait_for_result()
-    asker = page.get_by_role("button", name="Delete this fit")
+    asker = page.get_by_role("button", name="Delete this result")
     asker.click()
     expect(page.get_by_role("button", name="Keep", exact=True)).to_be_focused()
     page.keyboard.press("Escape")

@@ -46,7 +46,7 @@ def test_every_sample_comes_with_its_clicks_and_a_body(visitor: Visitor, name: s
     expect(page.get_by_label("Height", exact=True)).to_have_value(f"{100 * asked['height_m']:g}")
     expect(page.locator(".live-outline")).to_be_attached()
     expect(page.get_by_text("No body reaches")).to_be_hidden()
-    expect(page.get_by_role("button", name="Fit the body")).to_be_enabled()
+    expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
 
 
 def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
@@ -60,7 +60,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     expect(page.get_by_role("button", name="Correct a measurement")).to_be_disabled()
     page.get_by_label("Hip", exact=True).fill("98")
     visitor.correct()
-    page.get_by_role("heading", name="What the fit goes by").click()
+    page.get_by_role("heading", name="Lens, shading and mask").click()
     small = mask.with_name("small.png")
     small.write_bytes(_png(np.zeros((96, 128), np.uint8)))
     page.get_by_label("Choose a mask").set_input_files(small)
@@ -80,12 +80,12 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     result = service.get(job["links"]["result"]).json()
     hip = next(each for each in result["measurements"] if each["name"] == "hip_girth")
     assert abs(hip["value"] - 98.0) < 2.0
-    page.get_by_role("button", name="Correct something").click()
+    page.get_by_role("button", name="Adjust", exact=True).click()
     page.get_by_text("Known measurements").click()
     expect(page.get_by_label("Hip", exact=True)).to_have_value("98")
     expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
-    page.get_by_role("heading", name="What the fit goes by").click()
-    expect(page.get_by_text("the mask of that fit is used")).to_be_visible()
+    page.get_by_role("heading", name="Lens, shading and mask").click()
+    expect(page.get_by_text("the mask of that result is used")).to_be_visible()
     expect(page.get_by_role("radio", name="Loose", exact=True)).to_be_checked()
 
 

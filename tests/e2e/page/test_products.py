@@ -51,7 +51,7 @@ def test_a_heic_is_shown_by_way_of_the_service_and_fitted_as_it_is(visitor: Visi
     visitor.wait_for_stage()
     visitor.correct()
     expect(page.get_by_text("720 × 960")).to_be_visible()
-    page.get_by_role("heading", name="What the fit goes by").click()
+    page.get_by_role("heading", name="Lens, shading and mask").click()
     expect(page.get_by_text("Read from the picture.")).to_be_visible()
     visitor.describe_person()
     # Its points are proposed.
@@ -95,7 +95,7 @@ def card(visitor: Visitor, kind: str):
 def test_a_page_to_print_is_made_and_kept(looking: Visitor):
     page = looking.page
     looking.choose("Print")
-    page.get_by_role("button", name="Make the page").click()
+    page.get_by_role("button", name="Create the page").click()
     file = card(looking, "print").locator(".download", has_text=".html")
     expect(file).to_be_visible(timeout=FIT_WITHIN_MS)
     with page.expect_download() as download:
@@ -106,10 +106,10 @@ def test_a_page_to_print_is_made_and_kept(looking: Visitor):
 @pytest.mark.parametrize(
     ("kind", "label", "button", "turned"),
     [
-        ("pose", "Other pose", "Make the pose", "The body in this pose"),
-        ("caricature", "Caricature", "Make the caricature", "The caricature"),
-        ("animation", "Animation", "Make the animation", "The body in motion, to turn"),
-        ("texture", "Texture", "Make the texture", "The textured body"),
+        ("pose", "Other pose", "Create the pose", "The body in this pose"),
+        ("caricature", "Caricature", "Create the caricature", "The caricature"),
+        ("animation", "Animation", "Create the animation", "The body in motion"),
+        ("texture", "Texture", "Create the texture", "The body in colour"),
     ],
 )
 def test_bodies_are_shown_on_the_stage_and_left_for_the_fit(
@@ -120,11 +120,11 @@ def test_bodies_are_shown_on_the_stage_and_left_for_the_fit(
     with page.expect_request(asks_for(kind)):
         page.get_by_role("button", name=button).click()
     expect(card(looking, kind)).to_be_visible(timeout=FIT_WITHIN_MS)
-    body = page.get_by_role("img", name=f"{turned}; arrow keys turn it")
+    body = page.get_by_role("img", name=f"{turned}; arrow keys rotate it")
     expect(body).to_have_attribute("data-shows", re.compile("clay|texture"))
     page.keyboard.press("Escape")
     looking.wait_until_drawn(placement="canonical")
-    card(looking, kind).get_by_role("button", name="Turn it").click()
+    card(looking, kind).get_by_role("button", name="Show large").click()
     expect(body).to_be_visible()
     page.get_by_role("button", name="Back to the body").click()
     looking.wait_until_drawn(placement="canonical")
@@ -137,7 +137,7 @@ def test_what_is_no_motion_is_told(looking: Visitor):
         {"name": "dance.bvh", "mimeType": "text/plain", "buffer": b"no motion"}
     )
     expect(page.get_by_text("It moves as dance.bvh says.")).to_be_visible()
-    page.get_by_role("button", name="Make the animation").click()
+    page.get_by_role("button", name="Create the animation").click()
     expect(page.get_by_role("alert")).to_contain_text("HIERARCHY", timeout=FIT_WITHIN_MS)
 
 

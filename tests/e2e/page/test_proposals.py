@@ -135,7 +135,7 @@ def test_doubtful_points_are_asked_about_and_nothing_waits_for_the_answers(visit
     question = page.locator(".next-name")
     expect(question).to_have_text("Is this the left ankle?")
     visitor.describe_person()
-    expect(page.get_by_role("button", name="Fit the body")).to_be_enabled()
+    expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
     page.get_by_role("button", name="Yes").click()
     expect(question).to_have_text("Is this the right wrist?")
     page.get_by_role("button", name="It is hidden").click()

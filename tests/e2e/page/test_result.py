@@ -166,10 +166,10 @@ def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
         visitor.wait_until_drawn(placement="canonical")
         beside = page.locator(".look-beside canvas")
         expect(beside).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
-        page.get_by_role("button", name="Show the body in its skin, large").tap()
-        skin = page.get_by_role("img", name="The textured body; arrow keys turn it")
+        page.get_by_role("button", name="Show the body in colour, large").tap()
+        skin = page.get_by_role("img", name="The body in colour; arrow keys rotate it")
         expect(skin).to_have_attribute("data-shows", "texture")
-        expect(page.get_by_role("radio", name="Skin", exact=True)).to_be_checked()
+        expect(page.get_by_role("radio", name="In colour", exact=True)).to_be_checked()
         page.set_viewport_size({"width": 320, "height": 568})
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
 

@@ -21,7 +21,7 @@ def test_the_first_screen_tells_all_without_scrolling(
         page = visitor.page
         for told in (
             page.get_by_role("heading", level=1),
-            page.get_by_text(re.compile(r"\d\.\d to \d\.\d cm off on average")),
+            page.get_by_text(re.compile(r"typically within \d\.\d cm")),
             page.get_by_text("7 days after the last use"),
             page.get_by_text("from the front and from the side"),
             page.get_by_role("button", name="The body found in the first sample"),
@@ -45,7 +45,7 @@ def test_the_figures_are_a_link_away(browser: Browser, service: httpx.Client, ax
         expect(page.get_by_role("row", name=re.compile("^Front and side 1"))).to_be_visible()
         assert serious_findings(page, axe) == []
         page.get_by_role("link", name="Choose a picture").click()
-        expect(page.get_by_role("heading", name="A body in 3D")).to_be_visible()
+        expect(page.get_by_role("heading", name="Your measurements and your body")).to_be_visible()
 
 
 def test_the_body_turns_and_can_be_held(visitor: Visitor):
@@ -116,4 +116,4 @@ def test_a_fit_whose_news_breaks_off_is_shown_once_there_is_a_connection_again(v
     page.unroute("**/v1/fits/*/cancel")
     expect(page.get_by_text(GOES_ON)).to_have_count(0)
     page.get_by_role("button", name="Cancel").click()
-    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
+    expect(page.get_by_role("heading", name="Canceled")).to_be_visible()

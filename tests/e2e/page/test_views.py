@@ -37,7 +37,7 @@ def test_the_sample_pair_is_measured_in_two_taps(browser: Browser, service: http
         visitor.wait_for_stage()
         expect(page.get_by_role("radio", name="Front", exact=True)).to_be_checked()
         assert serious_findings(page, axe) == []
-        page.get_by_role("button", name="Fit the body").tap()
+        page.get_by_role("button", name="Measure", exact=True).tap()
         visitor.wait_for_result()
         visitor.wait_until_drawn(placement="canonical")
         row = page.get_by_role("row", name=re.compile("^Weight"))
@@ -94,7 +94,7 @@ def test_one_picture_of_two_is_corrected_and_both_are_fitted_again(visitor: Visi
     side = page.locator('[data-view="1"]')
     if not side.evaluate("fold => fold.open"):
         side.locator("summary").click()
-    side.get_by_role("button", name="Correct it").click()
+    side.get_by_role("button", name="Adjust", exact=True).click()
     visitor.wait_for_stage()
     expect(page.get_by_role("radio", name="Side", exact=True).first).to_be_checked()
     expect(page.get_by_label("Height", exact=True)).to_have_value("155.5")
@@ -107,5 +107,5 @@ def test_one_picture_of_two_is_corrected_and_both_are_fitted_again(visitor: Visi
 
 def test_a_browser_that_opened_a_fit_by_its_link_knows_it(visitor: Visitor, pair: dict):
     open_pair(visitor, pair)
-    visitor.page.get_by_role("button", name="Fits").click()
+    visitor.page.get_by_role("button", name="History").click()
     expect(visitor.page.get_by_role("dialog")).to_contain_text("Woman, 155.5 cm")

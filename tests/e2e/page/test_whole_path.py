@@ -19,7 +19,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     with visitor.without_news():
         visitor.submit()
         expect(page).to_have_url(re.compile(r"#/fits/[0-9a-f-]{36}$"))
-        expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
+        expect(page.get_by_role("progressbar", name="Progress")).to_be_visible()
     visitor.wait_for_result()
     visitor.wait_until_drawn(placement="canonical")
 
@@ -80,14 +80,14 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     with Visitor.at(browser, visitor.origin) as other:
         other.page.goto(link)
         other.wait_for_result()
-        other.page.get_by_role("button", name="Correct something").click()
+        other.page.get_by_role("button", name="Adjust", exact=True).click()
         expect(other.points()).to_have_count(len(LIMBS))
         expect(other.page.get_by_label("Height", exact=True)).to_have_value("180.4")
-    page.get_by_role("button", name="Delete this fit").click()
+    page.get_by_role("button", name="Delete this result").click()
     page.get_by_role("button", name="Delete", exact=True).click()
-    expect(page.get_by_role("heading", name="A body in 3D")).to_be_visible()
+    expect(page.get_by_role("heading", name="Your measurements and your body")).to_be_visible()
     page.goto(link)
-    expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
+    expect(page.get_by_role("heading", name="This result is gone")).to_be_visible()
 
 
 def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
@@ -95,15 +95,15 @@ def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
     visitor.let_fits_take_minutes()
     visitor.open_sample(with_points=True)
     visitor.submit()
-    expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
+    expect(page.get_by_role("progressbar", name="Progress")).to_be_visible()
     page.get_by_role("link", name="New").click()
     visitor.open_sample(with_points=True)
     visitor.submit()
     page.get_by_role("button", name="Cancel").click()
-    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
-    page.get_by_role("button", name=re.compile("^Fits")).click()
+    expect(page.get_by_role("heading", name="Canceled")).to_be_visible()
+    page.get_by_role("button", name=re.compile("^History")).click()
     expect(page.locator(".history li")).to_have_count(2)
     expect(page.locator(".history")).to_contain_text("Canceled")
     page.locator(".history a").last.click()
     page.get_by_role("button", name="Cancel").click()
-    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
+    expect(page.get_by_role("heading", name="Canceled")).to_be_visible()

@@ -269,7 +269,7 @@ class Visitor:
         self.page.wait_for_function(POINT_IS_DRAWN, arg=[name, *at, within_px])
 
     def submit(self) -> None:
-        self.page.get_by_role("button", name="Fit the body").click()
+        self.page.get_by_role("button", name="Measure", exact=True).click()
 
     def sent_view(self) -> dict[str, Any]:
         """Submit, and return what was asked of the one picture."""

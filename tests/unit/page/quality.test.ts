@@ -16,7 +16,7 @@ test("the grade follows the verdict, the outcomes and what there is to look at",
 
 test("a verdict against a person is the heading, whatever the outcome", () => {
   assert.equal(headingOf(of({ outcome: "poor_fit" }, { verdict: "no_person" })), "No person found");
-  assert.equal(headingOf(of({ outcome: "poor_fit" })), "A poor fit");
+  assert.equal(headingOf(of({ outcome: "poor_fit" })), "A poor match");
   assert.equal(headingOf(of({})), "The body");
 });
 

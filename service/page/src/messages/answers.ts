@@ -2,7 +2,7 @@
 // shown as the service writes them.
 export const answers = {
   titles: {
-    "fit-failed": "The fit failed",
+    "fit-failed": "It did not work",
     "invalid-request": "Something is missing or cannot be right",
     "not-found": "Nothing is here",
     "not-ready": "The service is not ready",
@@ -22,29 +22,29 @@ export const answers = {
     "estimator-failed": "Something went wrong while computing. Try again.",
     "estimator-timeout": "Computing took too long. Try again.",
     "estimator-unavailable": "The service is busy. Try again in a moment.",
-    "fit-crashed": "This picture made the fit crash each time. Try another picture.",
+    "fit-crashed": "The service crashes at this picture each time. Choose another one.",
     "fit-failed": "The fault is the service’s, not yours. Try again.",
-    "fit-expired": "Picture and result were erased when their time was over. Start another fit.",
+    "fit-expired": "Picture and result were erased when their time was over. Choose the picture again.",
     "image-animated": "This picture moves. Choose one that stands still.",
     "image-damaged": "This picture is damaged. Choose another one.",
     "image-empty": "This picture is an empty file. Choose another one.",
     "image-too-many-scans": "This picture is stored in too many steps. Save it anew, or choose another one.",
     "image-unsupported": "This kind of picture is not taken. Choose a JPEG, PNG or WebP.",
-    "input-gone": "The picture is no longer there. Start another fit.",
+    "input-gone": "The picture is no longer there. Choose it again.",
     "internal-error": "An unexpected fault of the service. Try again.",
     "mask-damaged": "This mask is damaged. Choose another one.",
     "mask-without-background": "This mask is all white. Only the person should be white.",
     "mask-without-foreground": "This mask is all black. The person should be white.",
-    "no-light": "The fit found no light that could be taken out of the picture. Fit by outline and shading, or choose the colours as photographed.",
+    "no-light": "No light was found that could be taken out of the picture. Measure by outline and shading, or choose the colours as photographed.",
     "no-process": "The service could not begin. Try again.",
-    "no-worker": "The service takes no fits just now. Try again in a moment.",
+    "no-worker": "The service measures nobody just now. Try again in a moment.",
     "not-an-image": "This is not a picture. Choose a JPEG, PNG or WebP.",
     "not-found": "It does not exist, or it was erased.",
     "person-not-found":
       "No person is found where the points are. Check that they lie on the right joints, or use a picture of the whole person.",
     "point-outside-image": "This point lies outside the picture. Move it or remove it.",
     "points-too-close": "All points are close together. Crop the picture to the person, or check the points.",
-    "queue-full": "Too many fits are waiting. Try again in a moment.",
+    "queue-full": "Too many pictures are waiting. Try again in a moment.",
     "storage-full": "The service’s storage is full. Try again later.",
     "storage-unavailable": "The service cannot reach its storage just now. Try again in a moment.",
     "submission-lost": "The request was lost. Send it again.",
@@ -65,7 +65,7 @@ export const answers = {
     "arms-against-trunk": "Hold your arms away from your body, a hand’s breadth or more at the hips.",
     "clothes-loose": "Wear close-fitting clothes, or give the weight. Under loose clothes the body is only estimated.",
     "skin-not-found":
-      "Use a picture in colour that shows the face, or say how the clothes fit. Without skin to go by, they are taken to be loose.",
+      "Use a picture in colour that shows the face, or say how tight the clothes are. Without skin to go by, they are taken to be loose.",
     "face-hidden": "Show your face: it tells which way you face, and the colour of your skin.",
     covered:
       "Take the picture with nothing and nobody in front of the person or beside them. Something there covers or touches them, or looks like them: a part of the outline does not count, so ranges are wider.",
@@ -81,7 +81,7 @@ export const answers = {
       "Use the picture as the camera took it. This one seems to be squeezed or stretched: the head is too broad or too narrow for the body.",
     contradicted:
       "Check that the points lie on the joints of one person, and that a mask shows nobody else. The picture contradicts the body.",
-    "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
+    "ambiguous-limb-facing": "Some limbs may as well slant the other way. Say which under “Toward you or away”.",
     "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
     "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
     "clothes-not-loose":

@@ -1,11 +1,11 @@
-// The head, dialogs, the list of fits, and what appears everywhere.
+// The head, dialogs, the history, and what appears everywhere.
 import { plural } from "./figures";
 
 export const frame = {
-  description: "A body, posed and measured, from one picture and a few clicks.",
+  description: "Your measurements and your body in 3D, from one photo.",
   start: "Maquette: start",
   fresh: "New",
-  history: "Fits",
+  history: "History",
   documentation: "Documentation",
   lightPage: "Light page",
   darkPage: "Dark page",
@@ -22,10 +22,10 @@ export const frame = {
     use: "Use this key",
   },
   list: {
-    title: "Fits of this browser",
-    none: "None yet.",
-    takeOff: (name: string) => `Take ${name} off this list`,
-    note: "Only this browser knows this list. The service erases results after a while; if you delete one, at once.",
+    title: "History",
+    none: "Nothing yet.",
+    takeOff: (name: string) => `Take ${name} off the history`,
+    note: "Only this browser keeps this history. The service erases results after a while, and at once what you delete.",
     states: {
       queued: "Waiting",
       running: "Running",

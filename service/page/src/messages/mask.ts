@@ -1,14 +1,14 @@
-// The mask before the fit: how it is shown, and its brushes.
+// The mask: how it is shown, and its brushes.
 export const mask = {
   title: "Mask of the person",
   proposed: "proposed",
   chosen: "from a file",
   edited: "edited",
-  help: "This is taken for the person; the fit refines the border itself. Paint what is missing, erase what does not belong.",
-  editedHelp: "The fit takes exactly what you painted.",
+  help: "This is taken for the person; its border is refined later. Paint what is missing, erase what does not belong.",
+  editedHelp: "Exactly what you painted is used.",
   preview: "The picture with the mask",
   shown: "The mask over the picture",
-  edit: "Look and correct",
+  edit: "Look and adjust",
   done: "Done",
   reset: "Discard the edits",
   undo: "Undo the last stroke",

@@ -1,9 +1,9 @@
-// What is said beside the picture while a fit is prepared: points, limbs, lens, light, clothes.
+// What is said beside the picture before it is measured: points, limbs, lens, light, clothes.
 import { plural } from "./figures";
 
 export const panel = {
-  title: "Prepare a fit",
-  submit: "Fit the body",
+  title: "Your photo",
+  submit: "Measure",
   cutOff: "You are offline. You can go on; everything is sent when the connection is back.",
   picture: "Picture",
   pictures: "Pictures",
@@ -13,9 +13,9 @@ export const panel = {
   shows: "Shows the person from",
   replace: "Replace",
   another: "Choose another picture",
-  correct: "Correct something",
-  correctWhat: "points, mask, limbs, lens, clothes",
-  evidence: "What the fit goes by",
+  correct: "Adjust",
+  correctWhat: "points, mask, limbs, lens",
+  evidence: "Lens, shading and mask",
   optional: "optional",
   points: {
     title: "Points",
@@ -35,15 +35,15 @@ export const panel = {
     own: { left: "The person’s own left: the picture’s right if they face you.", right: "The person’s own right: the picture’s left if they face you." },
     allDone: "All points done",
     pointsProposed: "Points proposed",
-    dragThenFit: "Drag what lies wrong, then fit the body.",
+    dragThenFit: "Drag what lies wrong, then measure.",
     plenty: "There are enough; more make the body better.",
     trunkNeeded: (count: number) => `${count} more of the shoulders and hips needed.`,
     needed: (count: number) => `${count} more needed. Guess what is covered; skip what is outside the picture.`,
     doneProposed: "Proposed",
     done: "All done",
-    lookProposed: "Do the points lie on the person’s joints? Left is the person’s own left. Drag a point to move it, or choose one below. Then fit the body.",
-    lookDone: "Does the outline lie on the person? Drag a point to move it, or choose one below. Then fit the body.",
-    outlineNeedsBody: "Choose the body, then the outline appears.",
+    lookProposed: "Do the points lie on the person’s joints? Left is the person’s own left. Drag a point to move it, or choose one below. Then measure.",
+    lookDone: "Does the outline lie on the person? Drag a point to move it, or choose one below. Then measure.",
+    outlineNeedsBody: "Choose female or male, then the outline appears.",
     bodyFollows: "The body follows in a moment.",
     unreached: (points: string) => `No body reaches ${points}. Check that they are in the right place, and on the right side.`,
     all: "All points",
@@ -67,7 +67,7 @@ export const panel = {
   },
   doubt: {
     look: (count: number) => plural(count, { one: "Please look", other: `Please look: ${count} to go` }),
-    optional: "You need not answer: the fit knows that this point is unsure.",
+    optional: "You need not answer: this point counts as unsure.",
     yes: "Yes",
     move: "Move it",
     hidden: "It is hidden",
@@ -122,7 +122,7 @@ export const panel = {
     help: "The person is cut out of the picture automatically. If you have a mask, white on the person, it is used instead.",
     another: "Another mask",
     choose: "Choose a mask",
-    leave: "Leave it to the fit",
+    leave: "Leave it to the service",
     misfit: (mask: string, picture: string) => `The mask has ${mask} pixels, the picture ${picture}. Make them the same size.`,
   },
   cues: {
@@ -138,7 +138,7 @@ export const panel = {
     tight: "Close-fitting or none",
     loose: "Loose",
     help: {
-      auto: "How the clothes fit is seen in the picture.",
+      auto: "How tight the clothes are is seen in the picture.",
       tight: "The outline is the body itself.",
       loose: "The body is looked for inside the clothes. Ranges are wider.",
     },

@@ -1,18 +1,18 @@
-// What can be made of a finished fit.
+// What can be created from a result.
 export const products = {
-  title: "Make something of it",
-  what: "What to make",
+  title: "Create",
+  what: "What to create",
   progress: (what: string) => `Progress: ${what}`,
   back: "Back to the body",
-  turn: "Turn it",
+  turn: "Show large",
   lessThan: (share: string) => `less than ${share}`,
   kinds: {
-    print: { label: "Print", make: "Make the page", help: "One page to read, print and send: the body, the measurements and how sure they are." },
+    print: { label: "Print", make: "Create the page", help: "One page to read, print and send: the body, the measurements and how sure they are." },
     size: { label: "Clothing size", make: "Find the size", help: "The size to take from a shop’s chart, and how likely each size fits." },
-    pose: { label: "Other pose", make: "Make the pose", help: "The same body in another pose, to turn and to save." },
-    animation: { label: "Animation", make: "Make the animation", help: "The body walks, waves or squats, or moves as a motion file (BVH) says." },
-    texture: { label: "Texture", make: "Make the texture", help: "The picture as the body’s skin. What the picture does not show is filled in." },
-    caricature: { label: "Caricature", make: "Make the caricature", help: "What is special about this body, exaggerated." },
+    pose: { label: "Other pose", make: "Create the pose", help: "The same body in another pose, to turn and to save." },
+    animation: { label: "Animation", make: "Create the animation", help: "The body walks, waves or squats, or moves as a motion file (BVH) says." },
+    texture: { label: "Texture", make: "Create the texture", help: "The body in the colours of the picture. What the picture does not show is filled in." },
+    caricature: { label: "Caricature", make: "Create the caricature", help: "What is special about this body, exaggerated." },
     composition: { label: "Body fat", make: "Estimate it", help: "Body fat, lean mass and the like, by formulas from the literature." },
   },
   pose: {
@@ -40,7 +40,7 @@ export const products = {
   },
   motion: { play: "Play", stop: "Stop", moment: "Moment of the motion", speed: "Speed", times: (speed: string) => `${speed} ×` },
   animation: {
-    turned: "The body in motion, to turn",
+    turned: "The body in motion",
     another: "Another BVH file",
     choose: "Choose a BVH file",
     moves: (file: string) => `It moves as ${file} says.`,
@@ -49,11 +49,11 @@ export const products = {
     motions: { walk: "Walk", wave: "Wave", squat: "Squat" },
   },
   texture: {
-    turned: "The textured body",
+    turned: "The body in colour",
     colours: "Colours",
     photographed: { label: "As photographed", title: "With the light of the picture" },
     unlit: { label: "Without the light", title: "The albedo: to be lit anew" },
-    onlyShading: "Only a fit with shading can take the light out of the picture.",
+    onlyShading: "Only by outline and shading is the light found that can be taken out.",
     size: "Size",
   },
   composition: {

@@ -21,7 +21,7 @@ export const stage = {
   keys:
     "Arrow keys move the selected point, or the crosshair when none is selected; Shift moves ten pixels. Enter places the next point at the crosshair, Escape selects nothing, S skips, H marks as hidden, Delete removes, plus and minus zoom, 0 shows the whole picture, Control Z undoes.",
   asked: (point: string) => `${point}?`,
-  proposing: "Points are being proposed …",
+  proposing: "Looking for the person …",
   nobody: "Nobody was found in this picture. Click the points yourself.",
   several: (count: number) => `${count} people were found. Tap the one you mean.`,
   severalFound: (count: number) => `${count} people were found.`,

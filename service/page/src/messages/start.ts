@@ -1,22 +1,22 @@
 // The start.
 export const start = {
-  title: "A body in 3D and its measurements, from one picture or two",
-  accuracy: (least: string, most: string, people: string) =>
-    `From front and side, girths of chest, waist and hip are ${least} to ${most} off on average, in rendered pictures of ${people} people it was never tuned on.`,
+  title: "Your measurements and your body in 3D, from one photo",
+  accuracy: (most: string, people: string) =>
+    `From front and side, chest, waist and hip are typically within ${most} (tested on ${people} rendered people).`,
   figures: "All figures",
   choose: "Choose a picture",
   take: "Take or choose a picture",
   goOn: { with: (picture: string) => `Go on with ${picture}`, discard: "Discard it" },
-  ways: "One picture in any stance; or two of a person who stands, from the front and from the side, which measures best.",
+  ways: "One photo in any pose will do. Two of a person who stands, from the front and from the side, measure best.",
   otherWays: "You can also drop a picture here, or paste one.",
   kept: {
     erased: (duration: string) => `Pictures go to this service and nowhere else. They are erased, with their results, ${duration} after the last use.`,
     untold: "Pictures go to this service and nowhere else. They are erased, with their results, some time after the last use.",
   },
   turning: {
-    label: "The body found in the first sample, seen from all sides; press to hold it still",
+    label: "The body found in the first sample, seen from all sides; press to pause",
     caption: "Found in the first sample",
-    hold: "Press to hold it still",
+    hold: "Press to pause",
   },
   samples: {
     title: "No picture at hand? Try one of these",
@@ -30,5 +30,5 @@ export const start = {
   },
   notShown: (name: string) => `${name} is not a picture this browser can show. Take a JPEG, PNG or WebP.`,
   picture: "picture",
-  maskOfFit: "the mask of that fit",
+  maskOfFit: "the mask of that result",
 } as const;

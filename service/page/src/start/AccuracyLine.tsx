@@ -4,12 +4,15 @@ import { decimal, measured } from "../messages/figures";
 import { messages } from "../messages";
 import { ACCURACY_ADDRESS } from "../route";
 
+/** Told to half a centimetre, upward: the figure is a mean, and a promise. */
+const STEPS_PER_CM = 2;
+
 export function AccuracyLine() {
   const { start } = messages;
-  const [least, most] = girthErrors(PAIR.frontAndSide);
+  const [, most] = girthErrors(PAIR.frontAndSide);
   return (
-    <p class="lead">
-      {start.accuracy(decimal(least, 1), measured(most, "centimeter", 1), decimal(PEOPLE))}{" "}
+    <p>
+      {start.accuracy(measured(Math.ceil(STEPS_PER_CM * most) / STEPS_PER_CM, "centimeter", 1), decimal(PEOPLE))}{" "}
       <a href={ACCURACY_ADDRESS}>{start.figures}</a>
     </p>
   );

@@ -50,7 +50,6 @@ export function Start() {
       >
         <div class="drop-text is-head">
           <h1>{start.title}</h1>
-          <AccuracyLine />
         </div>
         <Turning />
         <div class="drop-text">
@@ -61,6 +60,7 @@ export function Start() {
             </FileButton>
           </p>
           <p>{start.ways}</p>
+          <AccuracyLine />
           {!IS_TOUCHED && <p class="fine">{start.otherWays}</p>}
           <KeptLine />
           {openProblem.value && (
