@@ -10,7 +10,7 @@ from tests.external_tools import installed
 
 REPOSITORY = Path(__file__).parents[2]
 PAGE = REPOSITORY / "service" / "page"
-MAX_GZIPPED_BYTES = 320_000
+MAX_GZIPPED_BYTES = 300_000
 WEIGHED = re.compile(r"(\d+) bytes gzipped before a first result")
 
 

@@ -165,7 +165,7 @@ def test_clicking_is_one_tap_away_and_so_is_proposing(visitor: Visitor):
     drop(visitor, WOMAN.read_bytes())
     expect(visitor.points()).to_have_count(21)
     visitor.correct()
-    page.locator(".panel").get_by_role("button", name="Click them myself").click()
+    page.locator(".panel").get_by_role("button", name="Place points by hand").click()
     expect(visitor.points()).to_have_count(0)
     expect(page.locator(".next-name")).to_have_text("Left shoulder")
     page.get_by_role("button", name="Propose points").click()
@@ -184,6 +184,8 @@ def test_that_nobody_is_there_is_said_and_points_are_asked_for(visitor: Visitor)
     drop(visitor, plain.getvalue())
     expect(page.locator(".stage-word")).to_contain_text("Nobody was found")
     expect(page.get_by_role("status").filter(has_text="Nobody was found")).to_be_attached()
+    expect(page.get_by_label("Choose another picture")).to_be_attached()
+    page.get_by_role("button", name="Place points by hand").click()
     expect(page.locator(".next-name")).to_have_text("Left shoulder")
     box = visitor.stage.bounding_box()
     assert box is not None
@@ -251,5 +253,5 @@ def test_axe_finds_nothing_serious_in_questions_and_people(
         assert serious_findings(page, axe) == []
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
         page.get_by_role("button", name="Yes").click()
-        expect(page.get_by_role("button", name="Click them myself").first).to_be_visible()
+        expect(page.get_by_role("button", name="Place points by hand").first).to_be_visible()
         assert serious_findings(page, axe) == []

@@ -164,7 +164,7 @@ class Visitor:
             picture = FOLDER / f"{SAMPLES[name]}.jpg"
             self.page.get_by_label("Choose a picture").set_input_files(picture)
             self.correct()
-            self.page.locator(".panel").get_by_role("button", name="Click them myself").click()
+            self.page.locator(".panel").get_by_role("button", name="Place points by hand").click()
             expect(self.points()).to_have_count(0)
             self.page.evaluate("scrollTo(0, 0)")
         self.wait_for_stage()

@@ -14,7 +14,7 @@ import {
   skip,
   swapSides,
 } from "../../../service/page/src/points/placed";
-import { countProposed, hasProposed, isAllProposed, personAt, proposedPoints } from "../../../service/page/src/points/proposed";
+import { countProposed, hasProposed, isAllProposed, personAt, proposedPoints, wholePerson } from "../../../service/page/src/points/proposed";
 import { advance, amend, begin, redo, undo } from "../../../service/page/src/points/timeline";
 import { FOUND, proposalOf } from "./proposals";
 
@@ -84,4 +84,13 @@ test("who is tapped on is the one whose middle is nearer, and nobody outside all
   assert.equal(at(170, 100), null);
   assert.equal(at(50, 201), null);
   assert.equal(proposalOf(boxes).persons.length, 2);
+});
+
+test("of several the one wholly in the picture is meant, unless that one stands far behind", () => {
+  const among = (...persons: [number, number, number, number][]) => wholePerson({ person: 0, persons, image_size: { width: 500, height: 500 } });
+  const cut: [number, number, number, number] = [380, 20, 500, 450];
+  assert.equal(among(cut, [190, 50, 330, 480]), 1);
+  assert.equal(among(cut, [190, 50, 240, 200]), null);
+  assert.equal(among([380, 20, 480, 450], [190, 50, 330, 480]), null);
+  assert.equal(among(cut), null);
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fitted, panned, toPicture, toStage, zoomed } from "../../../service/page/src/stage/view";
+import { fitted, framed, panned, toPicture, toStage, zoomed } from "../../../service/page/src/stage/view";
 
 const stage = { width: 800, height: 600 };
 const picture = { width: 720, height: 960 };
@@ -33,4 +33,14 @@ test("no zoom goes below the whole picture, and no pan loses it", () => {
   const far = panned(near, 1e6, -1e6, stage, picture);
   const [first, last] = [toStage(far, { x: 0, y: 0 }), toStage(far, { x: 720, y: 960 })];
   assert.ok(first.x >= 0 && first.x < 800 && last.y > 0 && last.y <= 600);
+});
+
+test("a person who is small in a wide picture fills the stage, one who is large leaves it whole", () => {
+  const wide = { width: 1600, height: 900 };
+  const phone = { width: 390, height: 460 };
+  const small = framed(phone, wide, [700, 300, 900, 800]);
+  const [head, feet] = [toStage(small, { x: 700, y: 300 }), toStage(small, { x: 900, y: 800 })];
+  assert.ok(head.y > 0 && feet.y < 460 && feet.y - head.y > 0.8 * 460 && head.x > 0 && feet.x < 390);
+  assert.deepEqual(framed(phone, picture, [100, 60, 600, 900]), fitted(phone, picture));
+  assert.deepEqual(framed(phone, wide, null), fitted(phone, wide));
 });

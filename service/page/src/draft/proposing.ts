@@ -7,7 +7,7 @@ import type { PointsProposal, Problem } from "../api/types";
 import { listed } from "../messages/figures";
 import { messages } from "../messages";
 import { NO_POINTS } from "../points/placed";
-import { countProposed, isAllProposed, personAt, proposedPoints } from "../points/proposed";
+import { around, countProposed, isAllProposed, personAt, proposedPoints, wholePerson } from "../points/proposed";
 import { advance, begin } from "../points/timeline";
 import { announce } from "../ui/announce";
 import { canPropose, change, current, doubted, isAwaiting, points, selected, views } from "./draft";
@@ -23,12 +23,16 @@ export const others = computed(() => {
   return persons.length > 1 && isAllProposed(points.value) ? persons : [];
 });
 
+/** Nobody was found, and nobody has begun to click. */
+export const isNobody = computed(() => proposal.value?.person === null && Object.keys(points.value.placed).length === 0);
+/** Where whoever may be meant is, to be looked at. */
+export const looked = computed(() => around(proposal.value?.persons ?? []));
+
 /** What is to be known at once, while it holds. */
 export const proposalWord = computed(() => {
   const { stage } = messages;
   if (isProposing.value) return stage.proposing;
-  const isEmpty = Object.keys(points.value.placed).length === 0;
-  if (proposal.value?.person === null && isEmpty) return stage.nobody;
+  if (isNobody.value) return stage.nobody;
   if (others.value.length > 0) return stage.several(others.value.length);
   return null;
 });
@@ -138,6 +142,11 @@ async function ask(view: DraftView, imageId: string, wanted: Wish, asking: Abort
 
 function take(view: DraftView, found: PointsProposal, wanted: Wish): void {
   const { timeline, strokes } = view;
+  const whole = wanted.person === null ? wholePerson(found) : null;
+  if (whole !== null) {
+    view.wish.value = { person: whole, replaces: wanted.replaces };
+    return;
+  }
   view.proposal.value = found;
   if (wanted.replaces) strokes.value = begin([]);
   if (found.person === null) {

@@ -1,5 +1,5 @@
 // A fit on its way: how far it is, and at which picture.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { isCutOff } from "../api/connection";
 import type { Fit } from "../api/types";
 import type { Picture } from "../draft/picture";
@@ -16,12 +16,14 @@ interface Props {
 export function Progress({ fit, pictures, cancel }: Props) {
   const { fit: words } = messages;
   const [stopping, setStopping] = useState(fit.cancel_requested);
+  // The button that was pressed lay far down on a phone.
+  useEffect(() => scrollTo(0, 0), []);
   return (
     <main class="running">
-      <h1 class="title">{fit.state === "queued" ? words.queued : words.running}</h1>
       <progress class="bar" max={1} value={fit.progress} aria-label={words.progress}>
         {percent(fit.progress)}
       </progress>
+      <h1 class="running-line">{fit.state === "queued" ? words.queued : words.running(percent(fit.progress))}</h1>
       {isCutOff.value && (
         <p class="note" role="status">
           {words.cutOff}

@@ -1,7 +1,7 @@
 // A picture being measured, and how that ends without a result.
 export const fit = {
   queued: "Waiting for its turn",
-  running: "Measuring",
+  running: (share: string) => `Measuring: ${share}`,
   progress: "Progress",
   cutOff: "There is no connection. The service goes on; you see the result when the connection is back.",
   gone: "This result is gone",

@@ -76,7 +76,7 @@ export const panel = {
     clickWhere: (point: string) => `Click where ${point} is, or move it by the arrow keys.`,
   },
   proposal: {
-    clickAll: "Click them myself",
+    clickAll: "Place points by hand",
     person: (number: number) => `Person ${number}`,
     propose: "Propose points",
   },
@@ -134,13 +134,7 @@ export const panel = {
   },
   clothes: {
     title: "Clothes",
-    auto: "As seen",
-    tight: "Close-fitting or none",
-    loose: "Loose",
-    help: {
-      auto: "How tight the clothes are is seen in the picture.",
-      tight: "The outline is the body itself.",
-      loose: "The body is looked for inside the clothes. Ranges are wider.",
-    },
+    tight: { label: "Tight clothes", title: "The outline is the body itself" },
+    loose: { label: "Loose clothes", title: "The body is looked for inside the clothes; ranges are wider" },
   },
 } as const;

@@ -22,7 +22,7 @@ export const stage = {
     "Arrow keys move the selected point, or the crosshair when none is selected; Shift moves ten pixels. Enter places the next point at the crosshair, Escape selects nothing, S skips, H marks as hidden, Delete removes, plus and minus zoom, 0 shows the whole picture, Control Z undoes.",
   asked: (point: string) => `${point}?`,
   proposing: "Looking for the person …",
-  nobody: "Nobody was found in this picture. Click the points yourself.",
+  nobody: "Nobody was found in this picture.",
   several: (count: number) => `${count} people were found. Tap the one you mean.`,
   severalFound: (count: number) => `${count} people were found.`,
   proposed: (count: number) => plural(count, { one: "One point is proposed.", other: `${count} points are proposed.` }),

@@ -1,7 +1,7 @@
-// All that can be corrected before a fit: the picture, its points, the mask, limbs, the lens and the clothes.
+// All that can be corrected before a fit: the picture, its points, the mask, limbs and the lens.
 import { useSignal } from "@preact/signals";
 import type { ViewKind } from "../api/types";
-import { clothing, cues, current, mask, removeView, useMask, views } from "../draft/draft";
+import { cues, current, mask, removeView, useMask, views } from "../draft/draft";
 import { replaceFile } from "../draft/open";
 import { openPicture } from "../draft/picture";
 import { MaskSection } from "../mask/MaskSection";
@@ -63,9 +63,9 @@ function PictureSection() {
   );
 }
 
-/** By what the body is found: by its outline alone, or by its shading as well; and what covers it. */
+/** By what the body is found: by its outline alone, or by its shading as well. */
 function Evidence() {
-  const { cues: byWhat, clothes } = messages.panel;
+  const { cues: byWhat } = messages.panel;
   return (
     <div class="subsection">
       <Choice
@@ -79,18 +79,6 @@ function Evidence() {
         onChange={(value) => (cues.value = value)}
       />
       <p class="fine">{cues.value === "SES" ? byWhat.shadingHelp : byWhat.outlineHelp}</p>
-      <Choice
-        name="clothing"
-        legend={clothes.title}
-        options={[
-          { value: "auto", label: clothes.auto },
-          { value: "tight", label: clothes.tight },
-          { value: "loose", label: clothes.loose },
-        ]}
-        value={clothing.value}
-        onChange={(value) => (clothing.value = value)}
-      />
-      <p class="fine">{clothes.help[clothing.value]}</p>
     </div>
   );
 }

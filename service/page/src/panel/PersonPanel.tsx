@@ -1,7 +1,8 @@
-// Who is in the picture: gender, height, weight, what a tape said.
-import { person } from "../draft/draft";
+// Who is in the picture: gender, height, weight, clothes, what a tape said.
+import { clothing, person, views } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { TAPE_NAMES, TAPE_RANGE_CM, heightFault, heightInWords, heightM, inUnits, inches, tapeFault, weightFault } from "../draft/person";
+import { proposal } from "../draft/proposing";
 import { decimal, measured } from "../messages/figures";
 import { messages } from "../messages";
 import { measureLabel } from "../result/reading";
@@ -93,6 +94,7 @@ export function PersonPanel() {
       <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
         {faults.weight ?? said.weightHelps}
       </p>
+      <Clothes />
       <Tape />
     </section>
   );
@@ -102,6 +104,30 @@ function assumedHeight(): string {
   const body = liveBody.value;
   const { person: said } = messages;
   return body ? said.assumedHeight(heightInWords(body.height_m, person.value.units)) : said.meanHeight;
+}
+
+/** What in a picture says that clothes stand off the body, or may. */
+const LOOSE = ["clothes-loose", "skin-not-found"];
+
+/** As they are seen until somebody says otherwise: what is seen is judged by region, and more finely than a word. */
+function Clothes() {
+  const { clothes } = messages.panel;
+  const found = proposal.value;
+  const seen = found && found.person !== null ? (found.findings.some(({ code }) => LOOSE.includes(code)) ? "loose" : "tight") : null;
+  return (
+    <Choice
+      name="clothing"
+      legend={clothes.title}
+      options={[
+        { value: "tight", ...clothes.tight },
+        { value: "loose", ...clothes.loose },
+      ]}
+      value={clothing.value === "auto" ? seen : clothing.value}
+      onChange={(value) => {
+        for (const view of views.value) view.clothing.value = value;
+      }}
+    />
+  );
 }
 
 /** What was measured with a tape. */

@@ -1,9 +1,9 @@
-// Where a fit is prepared: the pictures, who is in them, one button; all else is behind "Correct something".
+// Where a fit is prepared: the pictures, who is in them, one button; all else is behind "Adjust".
 import { useEffect } from "preact/hooks";
 import { current, isCorrecting, points, upcoming } from "../draft/draft";
 import { liveProblem } from "../draft/live";
-import { openFiles, openProblem } from "../draft/open";
-import { isProposing, proposal } from "../draft/proposing";
+import { openFiles, openProblem, replaceFile } from "../draft/open";
+import { isNobody, isProposing, proposal } from "../draft/proposing";
 import { isEditing } from "../mask/edits";
 import { messages } from "../messages";
 import { isEnough } from "../points/placed";
@@ -12,6 +12,7 @@ import { isFull } from "../stage/full";
 import { Stage } from "../stage/Stage";
 import { Start } from "../start/Start";
 import { Findings } from "../ui/Findings";
+import { FileButton } from "../ui/FileButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { later } from "../ui/later";
 import { isNarrow } from "../ui/narrow";
@@ -27,7 +28,7 @@ export function Workbench() {
   const { panel } = messages;
   const view = current.value;
   // Nobody proposes them: they are clicked.
-  const hasToClick = view !== null && !isProposing.value && !isEnough(points.value);
+  const hasToClick = view !== null && !isProposing.value && !isNobody.value && !isEnough(points.value);
   useEffect(() => {
     if (hasToClick) isCorrecting.value = true;
   }, [hasToClick]);
@@ -81,9 +82,34 @@ export function Workbench() {
             {corrects && <Corrections />}
           </details>
         </div>
-        <SubmitBar />
+        {isNobody.value && !corrects ? <Nobody /> : <SubmitBar />}
       </div>
     </main>
+  );
+}
+
+/** In place of the button: there is nobody to measure yet. */
+function Nobody() {
+  const { panel } = messages;
+  return (
+    <div class="submit">
+      <div class="submit-row is-choice">
+        <FileButton look="button is-primary" onChoose={([file]) => void replaceFile(file!)}>
+          {panel.another}
+        </FileButton>
+        <button
+          class="button"
+          type="button"
+          onClick={() => {
+            isCorrecting.value = true;
+            // The button is gone: keys go on at the picture.
+            document.querySelector<HTMLElement>(".stage")?.focus({ preventScroll: true });
+          }}
+        >
+          {panel.proposal.clickAll}
+        </button>
+      </div>
+    </div>
   );
 }
 

@@ -2,7 +2,7 @@
 import { untracked, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { adjust, current, isCorrecting, mask, points, selected, timeline, upcoming } from "../draft/draft";
-import { proposalWord } from "../draft/proposing";
+import { looked, proposalWord } from "../draft/proposing";
 import { isEdited, shownMask } from "../mask/edits";
 import { MaskLayer } from "../mask/MaskLayer";
 import { messages } from "../messages";
@@ -27,7 +27,7 @@ const GRIP_PX = { mouse: 10, touch: 22 };
 export function Stage() {
   const { points: words, stage } = messages;
   const shown = current.value!.picture;
-  const lies = usePictureView(shown);
+  const lies = usePictureView(shown, looked.value);
   const { box, size, view, pan, pinch } = lies;
   const aim = useSignal<{ at: Spot; touch: boolean } | null>(null);
   const dragged = useSignal<PointName | null>(null);

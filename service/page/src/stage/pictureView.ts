@@ -4,7 +4,7 @@ import type { Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { RefObject } from "preact";
 import type { Picture } from "../draft/picture";
-import { fitted, isWhole, panned, zoomed } from "./view";
+import { fitted, framed, isSame, panned, zoomed } from "./view";
 import type { Size, Spot, View } from "./view";
 
 export interface PictureView {
@@ -19,11 +19,14 @@ export interface PictureView {
   readonly pinch: (factor: number, at: Spot, dx: number, dy: number) => void;
 }
 
-export function usePictureView(picture: Picture): PictureView {
+/** `looked` is what is shown as large as the stage allows, until somebody looks elsewhere; null is all of it. */
+export function usePictureView(picture: Picture, looked: readonly [number, number, number, number] | null = null): PictureView {
   const box = useRef<HTMLDivElement>(null);
   const size = useSignal<Size>({ width: 0, height: 0 });
   const view = useSignal<View>({ scale: 1, x: 0, y: 0 });
+  const sought = useRef(looked);
 
+  const home = () => framed(size.value, picture, sought.current);
   const whole = () => (view.value = fitted(size.value, picture));
   const zoom = (factor: number, at: Spot = { x: size.value.width / 2, y: size.value.height / 2 }) =>
     (view.value = zoomed(view.value, factor, at, size.value, picture));
@@ -36,9 +39,9 @@ export function usePictureView(picture: Picture): PictureView {
   useEffect(() => {
     const observer = new ResizeObserver(([entry]) => {
       const { width, height } = entry!.contentRect;
-      const untouched = size.value.width === 0 || isWhole(view.value, size.value, picture);
+      const untouched = size.value.width === 0 || isSame(view.value, home());
       size.value = { width, height };
-      if (untouched) whole();
+      if (untouched) view.value = home();
       else pan(0, 0);
     });
     observer.observe(box.current!);
@@ -46,7 +49,14 @@ export function usePictureView(picture: Picture): PictureView {
   }, [picture]);
 
   useEffect(() => {
-    if (size.value.width > 0) whole();
+    // The box is there some time after the picture.
+    const untouched = isSame(view.value, home());
+    sought.current = looked;
+    if (size.value.width > 0 && untouched) view.value = home();
+  }, [looked]);
+
+  useEffect(() => {
+    if (size.value.width > 0) view.value = home();
   }, [picture]);
 
   return { picture, box, size, view, whole, zoom, pan, pinch };

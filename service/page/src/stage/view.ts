@@ -26,6 +26,21 @@ export function fitted(stage: Size, picture: Size): View {
   return { scale, x: (stage.width - scale * picture.width) / 2, y: (stage.height - scale * picture.height) / 2 };
 }
 
+/** Around people: this share of their size is left free. */
+const FREE = 0.16;
+/** A gain of less is not worth that the picture is no longer whole. */
+const LEAST_GAIN = 1.4;
+
+/** As large as the stage allows what is to be looked at: left, top, right and bottom in the picture. */
+export function framed(stage: Size, picture: Size, box: readonly [number, number, number, number] | null): View {
+  const whole = fitted(stage, picture);
+  if (!box) return whole;
+  const [left, top, right, bottom] = box;
+  const scale = Math.min(stage.width / (right - left), stage.height / (bottom - top)) / (1 + FREE);
+  if (scale < LEAST_GAIN * whole.scale) return whole;
+  return kept({ scale, x: (stage.width - scale * (left + right)) / 2, y: (stage.height - scale * (top + bottom)) / 2 }, stage, picture);
+}
+
 /** Enlarged so that the spot of the picture under `at` stays where it is. */
 export function zoomed(view: View, factor: number, at: Spot, stage: Size, picture: Size): View {
   const least = fitted(stage, picture).scale;
@@ -46,8 +61,8 @@ export function toStage(view: View, spot: Spot): Spot {
   return { x: view.scale * spot.x + view.x, y: view.scale * spot.y + view.y };
 }
 
-export function isWhole(view: View, stage: Size, picture: Size): boolean {
-  return Math.abs(view.scale - fitted(stage, picture).scale) < 1e-6;
+export function isSame(view: View, other: View): boolean {
+  return Math.abs(view.scale - other.scale) < 1e-6;
 }
 
 /** The spot of the picture that is nearest. */
