@@ -1,4 +1,4 @@
-"""The body that turns on the page's first screen: the first sample's, seen from all around.
+"""The body that turns on the page's first screen: the first sample's, in colour, from all around.
 
 ``python -m tests.illustrations.turning_body`` fits the sample and draws the strip of views into the
 page's sources, from where its build takes it. The file is loaded before anything else of the page
@@ -14,17 +14,20 @@ import numpy as np
 from jaxtyping import UInt8
 
 from fitter import Click, FitResult, Gender, body_vertices, fit
+from fitter.applications.texture import linear_picture, picture_texture
 from fitter.arrays import Triangles, Vertices
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import to_levels
 from fitter.export.views import turned_about_vertical
-from fitter.observation.pixels import display_from_linear
+from fitter.library import PACKAGED
+from fitter.observation.decoding import decode_picture
+from fitter.observation.pixels import display_from_linear, linear_from_display
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image
 from service.demo_data.sample import load_sample
-from tests.illustrations.measurements_page import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
+from tests.illustrations.measurements_page import DISTANCE_M
 from tests.one_picture import one_picture
 from tests.unit.export.plain_pictures import block_means
 
@@ -60,18 +63,38 @@ def sample_fit() -> FitResult:
     )
 
 
-def strip(vertices: Vertices, triangles: Triangles) -> Strip:
+def colours_of(result: FitResult) -> Vertices:
+    """(m, 3) linear colours of the vertices: the sample's, with the light it was taken in.
+
+    At a seam of the atlas a vertex has several places; they show the same.
+    """
+    operators = PACKAGED.model(result.person.gender).operators
+    pixels = decode_picture(load_sample().image, field="image", max_pixels=10**6).pixels
+    texture = picture_texture(result.person, operators.evaluator, linear_picture(pixels))
+    size = len(texture.levels)
+    columns, rows = np.floor(size * operators.model.uv.T).astype(int)
+    found = texture.levels[size - 1 - rows, columns]
+    colours = np.empty((len(result.canonical_vertices), 3))
+    colours[operators.model.triangles] = found[operators.model.uv_triangles]
+    return texture.scale * linear_from_display(colours / 255.0)
+
+
+def strip(vertices: Vertices, triangles: Triangles, colours: Vertices) -> Strip:
     """All views side by side, the first from the front; the body turns to its left.
 
     Parameters
     ----------
     vertices
         (m, 3) camera frame, metres, upright.
+    colours
+        (m, 3) linear.
     """
     middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     middle[1] = vertices[:, 1].max()
     degrees = 360.0 / VIEWS * np.arange(VIEWS)
-    return np.concatenate([_view(vertices - middle, triangles, each) for each in degrees], axis=1)
+    return np.concatenate(
+        [_view(vertices - middle, triangles, colours, each) for each in degrees], axis=1
+    )
 
 
 def upright(vertices: Vertices, tilt: CameraTilt | None) -> Vertices:
@@ -83,7 +106,7 @@ def main(path: Path) -> None:
     """Write the strip."""
     result = sample_fit()
     vertices, triangles = body_vertices(result.person.gender, result.person.body)
-    drawn = strip(upright(vertices, result.person.tilt), triangles)
+    drawn = strip(upright(vertices, result.person.tilt), triangles, colours_of(result))
     encoded, content = cv2.imencode(".webp", drawn[:, :, ::-1], (cv2.IMWRITE_WEBP_QUALITY, QUALITY))
     if not encoded:
         message = "OpenCV could not encode the strip."
@@ -91,7 +114,7 @@ def main(path: Path) -> None:
     path.write_bytes(content.tobytes())
 
 
-def _view(vertices: Vertices, triangles: Triangles, degrees: float) -> Strip:
+def _view(vertices: Vertices, triangles: Triangles, colours: Vertices, degrees: float) -> Strip:
     width, height = (SUPERSAMPLING * side for side in FRAME_PX)
     px_per_m = height / ROOM_M
     camera = Camera(
@@ -103,10 +126,9 @@ def _view(vertices: Vertices, triangles: Triangles, degrees: float) -> Strip:
     )
     seen = turned_about_vertical(vertices, np.zeros(3), degrees) + [0.0, 0.0, DISTANCE_M]
     rendering = render(seen, triangles, camera)
-    lit = np.clip(rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
-    grey = block_means(shade_image(rendering, FILL_LIGHT + (1.0 - FILL_LIGHT) * lit), SUPERSAMPLING)
+    bands = [block_means(shade_image(rendering, each), SUPERSAMPLING) for each in colours.T]
     share = block_means(rendering.silhouette.astype(np.float32), SUPERSAMPLING)
-    linear = grey[..., None] * CLAY + (1.0 - share[..., None]) * WALL
+    linear = np.stack(bands, axis=2) + (1.0 - share[..., None]) * WALL
     return to_levels(display_from_linear(linear))
 
 

@@ -125,7 +125,8 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
         }
         for name, facing in found.items()
     ]
-    as_if(visitor, {"limb_facing": doubted})
+    warning = {"code": "ambiguous-limb-facing", "severity": "warns", "reason": "", "remedy": ""}
+    as_if(visitor, {"limb_facing": doubted, "warnings": [warning | {"where": []}]})
     open_fit(visitor, finished_fit)
     page = visitor.page
     page.get_by_role("button", name="If you see which, say so").press("Enter")

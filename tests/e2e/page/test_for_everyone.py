@@ -36,6 +36,7 @@ def test_axe_finds_nothing_serious_from_start_to_result(
         assert serious_findings(page, axe) == []
         page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
         visitor.wait_for_result()
+        visitor.choose("In colour")
         for kind in ("Print", "Animation", "Other pose", "Texture", "Caricature", "Clothing size"):
             visitor.choose(kind)
             assert serious_findings(page, axe) == [], kind
@@ -244,13 +245,6 @@ NOTE_SIZES = """() => {
       if (target.matches("canvas")) window.sizes.push([target.width, target.clientWidth]);
   }).observe(document, { subtree: true, attributeFilter: ["data-shows"] });
 }"""
-NOTE_STAGE = """() => {
-  window.placed = [];
-  new MutationObserver(() => {
-    const stage = document.querySelector('.stage[aria-busy="false"]');
-    if (stage) window.placed.push(stage.querySelector(".stage-picture").style.transform);
-  }).observe(document, { subtree: true, childList: true, attributeFilter: ["aria-busy"] });
-}"""
 
 
 def test_a_canvas_says_what_it_shows_once_it_has_its_size(visitor: Visitor, finished_fit: str):
@@ -263,12 +257,3 @@ def test_a_canvas_says_what_it_shows_once_it_has_its_size(visitor: Visitor, fini
     sizes = page.evaluate("window.sizes")
     assert sizes
     assert all(abs(drawn - seen) <= 1 for drawn, seen in sizes), sizes
-
-
-def test_a_stage_that_is_not_busy_knows_where_its_picture_lies(visitor: Visitor):
-    page = visitor.page
-    page.evaluate(NOTE_STAGE)
-    visitor.open_sample()
-    placed = page.evaluate("window.placed")
-    assert placed
-    assert "scale(1)" not in placed[0]

@@ -49,7 +49,7 @@ def open_brushes(visitor: Visitor) -> None:
     page = visitor.page
     drop(visitor, WOMAN.read_bytes())
     visitor.correct()
-    page.get_by_role("button", name="Look and correct").click()
+    page.get_by_role("button", name="Look and adjust").click()
     expect(page.locator(".mask-stage")).to_have_attribute("aria-busy", "false")
     wait_for_mask(visitor, HEART, is_person=True)
     wait_for_mask(visitor, CORNER, is_person=False)

@@ -1,11 +1,9 @@
 """Files of every kind go in, and what is made of a finished fit is looked at and kept."""
 
-import io
 import re
 from collections.abc import Callable
 
 import pytest
-from PIL import Image
 from playwright.sync_api import Page, Request, expect
 
 from service.demo_data.sample import load_sample
@@ -16,30 +14,9 @@ SAMPLE = load_sample().image
 HEIC = phone_picture(coded(SAMPLE_LYING), orientation=6, quarters=3, focal_length_35mm=50)
 
 
-def written(picture: Image.Image, kind: str, **options: object) -> bytes:
-    file = io.BytesIO()
-    picture.save(file, kind, **options)
-    return file.getvalue()
-
-
-def sample() -> Image.Image:
-    return Image.open(io.BytesIO(SAMPLE))
-
-
 def choose(page: Page, label: str, content: bytes, name: str = "p.jpg") -> None:
     file = {"name": name, "mimeType": "", "buffer": content}
     page.get_by_label(label, exact=True).set_input_files(file)
-
-
-@pytest.mark.parametrize(
-    ("kind", "options"),
-    [("JPEG", {"progressive": True}), ("PNG", {}), ("WEBP", {"lossless": True})],
-)
-def test_whole_pictures_of_every_kind_are_taken(visitor: Visitor, kind: str, options: dict):
-    with visitor.page.expect_response("**/v1/images") as answer:
-        choose(visitor.page, "Choose a picture", written(sample(), kind, **options))
-    assert answer.value.status in (200, 201)
-    visitor.wait_for_stage()
 
 
 def test_a_heic_is_shown_by_way_of_the_service_and_fitted_as_it_is(visitor: Visitor):
@@ -69,11 +46,6 @@ def test_what_neither_browser_nor_service_can_show_is_told(visitor: Visitor):
     choose(page, "Choose a picture", SAMPLE)
     visitor.wait_for_stage()
     expect(page.get_by_role("alert")).to_have_count(0)
-
-
-def test_a_picture_that_is_too_small_is_told_beside_it(visitor: Visitor):
-    choose(visitor.page, "Choose a picture", written(sample().resize((20, 27)), "JPEG"))
-    expect(visitor.page.get_by_role("alert").first).to_contain_text("64")
 
 
 def asks_for(kind: str) -> Callable[[Request], bool]:

@@ -6,13 +6,18 @@ from collections.abc import Callable
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import Browser, Route, expect
 
 from fitter.vocabulary.choices import Cues
 from tests.e2e.page.visitor import FIT_WITHIN_MS, LABELS_ARE_SEEN, PHONE, Visitor
 from tests.e2e.service import ended_job
 from tests.integration.nonsense import nonsense
+
+SHADES = 64
+"""More than an even ground has."""
 
 RESULT = re.compile(r"/v1/fits/[0-9a-f-]{36}/result(\?|$)")
 
@@ -44,7 +49,7 @@ def test_measurements_of_a_poor_fit_are_grey_and_say_why(visitor: Visitor, finis
     open_fit(visitor, finished_fit)
     page = visitor.page
     expect(page.locator("[data-grade]")).to_have_attribute("data-grade", "poor")
-    expect(page.get_by_text("Shown in grey because the body does not fit")).to_be_visible()
+    expect(page.get_by_text("Shown in grey because the body does not match")).to_be_visible()
     expect(page.get_by_text("the true value lies in it")).to_have_count(0)
     value, soft = (
         page.locator(where).first.evaluate("each => getComputedStyle(each).color")
@@ -152,13 +157,25 @@ def test_tapes_are_labelled_and_marked_from_the_table_and_from_the_body(
     expect(hip).to_contain_text(str(round(float(value.split()[0]) / 2.54, 1)))
 
 
-def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
+def test_four_figures_the_colours_and_the_tapes_are_there_without_asking(
     browser: Browser, service: httpx.Client, finished_fit: str
 ):
-    """On a phone without scrolling; the skin is asked for once, by the page itself."""
+    """On a phone without scrolling; the body in colour comes first."""
     with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
-        open_fit(visitor, finished_fit)
         page = visitor.page
+        page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+        expect(page.get_by_role("radio", name="In colour", exact=True)).to_be_checked()
+        colours = page.get_by_role("img", name="The body in colour; arrow keys rotate it")
+        expect(colours).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+        share = page.get_by_role("button", name="Share a picture of the body")
+        with page.expect_download() as download:
+            share.click()
+        with Image.open(download.value.path()) as picture:
+            assert len(np.unique(np.asarray(picture))) > SHADES
+        page.get_by_role("button", name="History").click()
+        expect(page.get_by_role("dialog")).to_contain_text(re.compile(r"Waist [\d.]+ cm"))
+        page.keyboard.press("Escape")
+        visitor.choose("Body")
         figures = page.locator(".figures")
         for name in ("Chest", "Waist", "Hip", "Weight"):
             expect(figures.get_by_text(name, exact=True)).to_be_in_viewport(ratio=1)
@@ -167,8 +184,7 @@ def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
         beside = page.locator(".look-beside canvas")
         expect(beside).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
         page.get_by_role("button", name="Show the body in colour, large").tap()
-        skin = page.get_by_role("img", name="The body in colour; arrow keys rotate it")
-        expect(skin).to_have_attribute("data-shows", "texture")
+        expect(colours).to_have_attribute("data-shows", "texture")
         expect(page.get_by_role("radio", name="In colour", exact=True)).to_be_checked()
         page.set_viewport_size({"width": 320, "height": 568})
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
@@ -214,10 +230,12 @@ def test_a_landscape_is_not_measured_and_the_page_says_so_and_measures_anyway(
     assert table.raise_for_status().text.count("\n") == 1
     page = visitor.page
     page.goto(f"{visitor.origin}/#/fits/{fit_of_hills['id']}")
-    expect(page.get_by_role("heading", name="No person found")).to_be_visible()
-    expect(page.locator("p.note.is-problem")).to_contain_text("No person is seen")
+    heading = page.get_by_role("heading", name="The body does not match the points")
+    expect(heading).to_be_visible()
+    expect(page.locator(".quality")).to_contain_text("Nothing in the picture shows a body")
     expect(page.locator(".measures")).to_have_count(0)
     page.get_by_role("button", name="Measure anyway").click()
     expect(page.locator(".measures").first).to_be_visible(timeout=FIT_WITHIN_MS)
-    expect(page.get_by_role("heading", name="No person found")).to_be_visible()
+    expect(heading).to_be_visible()
+    page.locator(".more-notes > summary").click()
     expect(page.get_by_text("You asked for measurements all the same")).to_be_visible()

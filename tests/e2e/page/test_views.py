@@ -91,10 +91,8 @@ def test_each_picture_shows_the_body_as_it_stands_there_and_says_how_well_it_fit
 def test_one_picture_of_two_is_corrected_and_both_are_fitted_again(visitor: Visitor, pair: dict):
     page = visitor.page
     open_pair(visitor, pair)
-    side = page.locator('[data-view="1"]')
-    if not side.evaluate("fold => fold.open"):
-        side.locator("summary").click()
-    side.get_by_role("button", name="Adjust", exact=True).click()
+    page.locator(".more-notes > summary").click()
+    page.get_by_role("button", name="Adjust: Side picture").click()
     visitor.wait_for_stage()
     expect(page.get_by_role("radio", name="Side", exact=True).first).to_be_checked()
     expect(page.get_by_label("Height", exact=True)).to_have_value("155.5")

@@ -284,9 +284,10 @@ class Visitor:
             self.submit()
         return sent.value.post_data_json
 
-    def wait_for_result(self) -> None:
-        """Wait until the result is there of the fit that the address names."""
+    def wait_for_result(self, *, look: str = "Body") -> None:
+        """Wait until the result is there of the fit that the address names, and look at it so."""
         self.page.wait_for_function(RESULT_IS_SHOWN, timeout=FIT_WITHIN_MS)
+        self.choose(look)
 
     @property
     def body(self) -> Locator:

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { readGlb } from "../../../service/page/src/viewer/glb";
+import { dressed, readGlb } from "../../../service/page/src/viewer/glb";
 
 const POSITIONS = [0, 0, 0, 1, 0, 0, 0, 1, 0];
 const HALF_TURN = Math.SQRT1_2;
@@ -70,6 +70,17 @@ test("a texture is read with its places, and whether its light is in it", async 
   assert.equal(body.texture!.type, "image/png");
   assert.deepEqual([...new Uint8Array(await body.texture!.arrayBuffer())], [2, 0, 1, 0, 0, 0]);
   assert.equal(readGlb(glb({})).texture, null);
+});
+
+test("a body wears the texture of another of the same mesh, cut along its seams", () => {
+  const plain = readGlb(glb({}));
+  const uv = Float32Array.of(0, 0, 0.5, 0, 1, 0, 0, 1);
+  const skin = { ...plain, uncut: Float32Array.of(0, 1, 2, 1), uv, triangles: Uint16Array.of(0, 1, 2, 2, 3, 0) };
+  const worn = dressed(plain, skin);
+  assert.deepEqual([...worn.positions], [...POSITIONS, ...POSITIONS.slice(3, 6)]);
+  assert.equal(worn.uv, uv);
+  assert.equal(worn.triangles, skin.triangles);
+  assert.equal(dressed(plain, plain), plain);
 });
 
 test("what is no GLB file is refused", () => {

@@ -2,8 +2,11 @@
 import { useEffect, useRef } from "preact/hooks";
 import { getFit } from "../api/calls";
 import { ProblemError } from "../api/client";
+import { person } from "../draft/draft";
+import { inches } from "../draft/person";
+import type { Person } from "../draft/person";
 import { isActive } from "../fit/watch";
-import { moment, percent } from "../messages/figures";
+import { measured, moment, percent } from "../messages/figures";
 import { messages } from "../messages";
 import { fitAddress, go, openFit } from "../route";
 import { IconButton } from "../ui/IconButton";
@@ -14,6 +17,7 @@ const LOOK_EVERY_MS = 2000;
 
 export function HistoryPanel({ onClose }: { onClose: () => void }) {
   const { frame } = messages;
+  const { units } = person.value;
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current!.showModal(), []);
   useEffect(() => {
@@ -65,7 +69,7 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
                 <span>
                   <b>{entry.name}</b>
                   <small>{moment(entry.startedAt)}</small>
-                  <small>{standing(entry)}</small>
+                  <small>{standing(entry, units)}</small>
                 </span>
               </a>
               <IconButton icon="close" label={frame.list.takeOff(entry.name)} onClick={() => forget(entry.id)} />
@@ -78,10 +82,11 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
   );
 }
 
-function standing({ id }: Entry): string {
+function standing({ id, waistCm }: Entry, units: Person["units"]): string {
   const fit = fits.value[id];
-  if (!fit) return "…";
   const { list } = messages.frame;
+  if (waistCm !== undefined) return list.waist(units === "metric" ? measured(waistCm, "centimeter", 1) : measured(inches(waistCm), "inch", 1));
+  if (!fit) return "…";
   if (fit.state === "running") return `${list.states.running} ${percent(fit.progress)}`;
   return list.states[fit.state];
 }

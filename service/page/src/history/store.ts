@@ -1,4 +1,4 @@
-// The fits this browser has started or opened: ids and a thumbnail, nothing else.
+// The fits this browser has started or opened: ids, a small picture and the waist, nothing else.
 import { signal } from "@preact/signals";
 import type { Fit } from "../api/types";
 import { keep as keepText, kept } from "../kept";
@@ -9,11 +9,13 @@ export interface Entry {
   readonly startedAt: string;
   /** A small JPEG as a data address. */
   readonly thumbnail: string;
+  /** Once its result was seen: of the smallest waist, centimetres. */
+  readonly waistCm?: number;
 }
 
 const PLACE = "maquette.fits";
 const MOST = 60;
-const THUMBNAIL_PX = 96;
+export const THUMBNAIL_PX = 96;
 
 export const entries = signal<readonly Entry[]>(load());
 
@@ -23,6 +25,11 @@ export const fits = signal<Readonly<Record<string, Fit>>>({});
 export function remember(entry: Entry): void {
   if (entries.value.some((each) => each.id === entry.id)) return;
   keep([entry, ...entries.value].slice(0, MOST));
+}
+
+/** What its result shows. */
+export function amend(id: string, shown: Partial<Pick<Entry, "thumbnail" | "waistCm">>): void {
+  keep(entries.value.map((each) => (each.id === id ? { ...each, ...shown } : each)));
 }
 
 export function forget(id: string): void {

@@ -41,7 +41,7 @@ export const answers = {
     "not-an-image": "This is not a picture. Choose a JPEG, PNG or WebP.",
     "not-found": "It does not exist, or it was erased.",
     "person-not-found":
-      "No person is found where the points are. Check that they lie on the right joints, or use a picture of the whole person.",
+      "The body does not match the points. Check that they lie on the right joints, or choose a picture of the whole person.",
     "point-outside-image": "This point lies outside the picture. Move it or remove it.",
     "points-too-close": "All points are close together. Crop the picture to the person, or check the points.",
     "queue-full": "Too many pictures are waiting. Try again in a moment.",
@@ -110,5 +110,6 @@ export const answers = {
   verdicts: {
     implausible: "This picture cannot be measured. The notes say why, and what to do.",
     no_person: "No person is seen where the points are. Check the points, or choose another picture.",
+    mismatch: "Nothing in the picture shows a body where the points are. Check that they lie on the right joints.",
   },
 } as const;

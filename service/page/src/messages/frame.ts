@@ -26,6 +26,7 @@ export const frame = {
     none: "Nothing yet.",
     takeOff: (name: string) => `Take ${name} off the history`,
     note: "Only this browser keeps this history. The service erases results after a while, and at once what you delete.",
+    waist: (girth: string) => `Waist ${girth}`,
     states: {
       queued: "Waiting",
       running: "Running",

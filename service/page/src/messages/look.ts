@@ -14,6 +14,7 @@ export const look = {
   },
   skinComes: "The colours are being put on …",
   showSkin: "Show the body in colour, large",
+  share: "Share a picture of the body",
   whichPicture: "Picture",
   from: "Look at it",
   sides: { front: "From the front", side: "From the side", back: "From the back" },

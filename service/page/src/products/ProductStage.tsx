@@ -5,7 +5,7 @@ import { Icon } from "../ui/Icon";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { KINDS } from "./kinds";
 
-export function ProductStage({ product: { id, kind, links }, onBack }: { product: Product; onBack: () => void }) {
+export function ProductStage({ product: { id, kind, links }, skin, onBack }: { product: Product; skin: string | null; onBack: () => void }) {
   const { look, products: words } = messages;
   const body = KINDS[kind].body!;
   return (
@@ -19,7 +19,7 @@ export function ProductStage({ product: { id, kind, links }, onBack }: { product
       </div>
       <div class="look-room">
         <div class="look-free">
-          <DerivedCanvas key={id} path={links.files[body.file]!} label={body.label} />
+          <DerivedCanvas key={id} path={links.files[body.file]!} skin={skin} label={body.label} />
         </div>
         <p class="look-hint fine">{look.hint}</p>
       </div>

@@ -20,9 +20,6 @@ interface Props {
   readonly onShow: (product: Product) => void;
 }
 
-/** Whoever wants little motion sees pictures stand. */
-const isCalm = matchMedia("(prefers-reduced-motion: reduce)");
-
 const OFFERED = Object.keys(KINDS) as ProductKind[];
 
 export function ProductsPanel({ fitId, hasLight, onStage, onShow }: Props) {
@@ -61,8 +58,8 @@ function hasBody({ kind, links }: Product): boolean {
 function ProductCard({ product, isOnStage, onShow }: { product: Product; isOnStage: boolean; onShow: () => void }) {
   const { products: words } = messages;
   const { kind, links, problem, progress, result, state } = product;
-  const { picture = "", moves = false, told } = KINDS[kind];
-  const url = usePictureOf(links, isCalm.matches && moves ? "" : picture, state === "succeeded");
+  const { picture = "", told } = KINDS[kind];
+  const url = usePictureOf(links, picture, state === "succeeded");
   const { label } = words.kinds[kind];
   return (
     <li class={isOnStage ? "is-on-stage" : ""} data-kind={kind} data-state={state}>

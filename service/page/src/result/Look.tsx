@@ -1,4 +1,4 @@
-// The body upright with its tapes, in its own skin, or over its picture; what experts look at is folded.
+// The body in colour, upright with its tapes, or over its picture; what experts look at is folded.
 import { useSignal } from "@preact/signals";
 import { useState } from "preact/hooks";
 import type { Fit, FitResult } from "../api/types";
@@ -16,11 +16,13 @@ import { Slider } from "../ui/Slider";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
+import type { Snapshot } from "../viewer/DerivedCanvas";
 import { SideView } from "../viewer/SideView";
 import { SURFACES } from "../viewer/surface";
 import type { Surface } from "../viewer/surface";
 import type { TapeEnds } from "../viewer/Tapes";
 import type { Side } from "../viewer/Turntable";
+import { Coloured } from "./Coloured";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
 import { nameOfView, usePictureOf } from "./files";
@@ -46,6 +48,8 @@ interface Props {
   readonly shown: Shown;
   readonly onShow: (shown: Shown) => void;
   readonly skin: Skin;
+  /** The body in colour is seen. */
+  readonly onColour: (take: Snapshot) => void;
   readonly turning: Turning;
   readonly onFlip: (limb: TurnedLimb) => void;
   readonly measure: string | null;
@@ -54,7 +58,7 @@ interface Props {
 }
 
 export function Look(props: Props) {
-  const { fit, result, files, picture, chosen, onChoose, hidden, shown, onShow, skin, turning, onFlip, measure, onPoint, onMeasure } = props;
+  const { fit, result, files, picture, chosen, onChoose, hidden, shown, onShow, skin, onColour, turning, onFlip, measure, onPoint, onMeasure } = props;
   const { number } = files;
   const { limbs, look, products } = messages;
   const { flips, pointedAt } = turning;
@@ -64,6 +68,7 @@ export function Look(props: Props) {
   const [opacity, setOpacity] = useState(0.85);
   const [lines, setLines] = useState(false);
   const [failed, setFailed] = useState(false);
+  const [isOut, setOut] = useState(false);
   const [from, setFrom] = useState<{ readonly side: Side } | null>(null);
   const ends = useSignal<readonly TapeEnds[]>([]);
   const surfaces: readonly Surface[] = files.posed.light === null ? ["clay"] : SURFACES;
@@ -72,8 +77,8 @@ export function Look(props: Props) {
   const found = pointedAt && facingsOf(result.views[number]!)[pointedAt];
   const overlay = usePictureOf(fit.links, nameOfView(number, "overlay.png"), (lines || failed) && over);
   const views = [
-    { value: "body", ...look.views.body },
     ...(skin.state === "none" ? [] : [{ value: "skin" as const, ...look.views.skin }]),
+    { value: "body", ...look.views.body },
     { value: "picture", ...look.views.picture },
   ] as const;
   return (
@@ -133,15 +138,17 @@ export function Look(props: Props) {
           )}
         </div>
         {isSkin && (
-          <div class="look-free">
-            {skin.path ? (
-              <DerivedCanvas path={skin.path} label={products.texture.turned} like={files} turns from={from} />
-            ) : (
-              <div class="look-loading" role="status">
-                {look.skinComes}
-              </div>
-            )}
-          </div>
+          <Coloured
+            skin={skin}
+            files={files}
+            picture={picture}
+            from={from}
+            isOut={isOut}
+            onOut={(take) => {
+              setOut(true);
+              onColour(take);
+            }}
+          />
         )}
         {shown === "canonical" && skin.path && (
           <button class="look-beside" type="button" aria-label={look.showSkin} onClick={() => onShow("skin")}>

@@ -1,188 +1,85 @@
-// What is in doubt, what to do about it, and what had to be assumed; for experts, how the fit went.
-import type { FitResult, Remark, ViewResult } from "../api/types";
-import { viewTitles } from "../messages/viewNames";
-import { decimal, degrees, listed, measured, percent, seconds } from "../messages/figures";
-import { plainName, wordFor } from "../messages/words";
+// How good a result is: a grade, a sentence, what to do; all else there is to know is folded.
+import type { FitResult } from "../api/types";
 import { messages } from "../messages";
-import { AssumptionNotes } from "../ui/AssumptionNotes";
-import { Findings } from "../ui/Findings";
-import { remarked } from "../ui/answered";
-import { contradictionOf } from "./quality";
+import { viewTitles } from "../messages/viewNames";
+import { notesOf } from "./remarks";
+import type { Note } from "./remarks";
+import { gradeOf, headingOf } from "./quality";
 
-/** Of limbs that may slant either way this page tells by itself, with what can be done. */
-const OPEN_FACING = "ambiguous-limb-facing";
+/** What somebody does about a note; null until it can be done. */
+export type Acting = ((note: Note) => void) | null;
 
 interface Props {
   readonly result: FitResult;
-  /** Say which way these limbs slant in a picture; null until it is there. */
-  readonly onSayWhich: ((limbs: readonly string[], number: number) => void) | null;
-  /** Correct what was said of a picture; null until it is there. */
-  readonly onCorrect: ((number: number) => void) | null;
+  readonly onAct: Acting;
 }
 
-export function Notes({ result, onSayWhich, onCorrect }: Props) {
-  const { views, warnings, assumptions } = result;
-  const contradiction = contradictionOf(result);
-  return (
-    <>
-      <div class="section notes">
-        {contradiction && <p class="note is-problem">{contradiction}</p>}
-        <WarningNotes warnings={warnings} views={views} />
-        {views.length === 1 && <OfPicture view={views[0]!} number={0} result={result} onSayWhich={onSayWhich} />}
-        <AssumptionNotes assumptions={assumptions} heightM={result.height_m} lensMm={lensMm(views[0]!)} />
-      </div>
-      {views.length > 1 &&
-        views.map((view, number) => (
-          <details class="section fold-section" key={number} open={hasNotes(view)} data-view={number}>
-            <summary>
-              <h2>{viewTitles(views)[number]}</h2>
-            </summary>
-            <div class="of-picture">
-              <OfPicture view={view} number={number} result={result} onSayWhich={onSayWhich} />
-              {onCorrect && (
-                <button class="button is-small" type="button" onClick={() => onCorrect(number)}>
-                  {messages.result.correct}
-                </button>
-              )}
-            </div>
-          </details>
-        ))}
-    </>
-  );
+/** The note that stands beside the grade; null where nothing is in doubt. */
+function firstOf(result: FitResult): Note | null {
+  return gradeOf(result) === "good" ? null : (notesOf(result)[0] ?? null);
 }
 
-interface PictureProps extends Pick<Props, "onSayWhich"> {
-  readonly view: ViewResult;
-  readonly number: number;
-  readonly result: FitResult;
-}
-
-function OfPicture({ view, number, result, onSayWhich }: PictureProps) {
-  const { findings, warnings, assumptions, outcome } = view;
-  const explained = wordFor(messages.result.explained, outcome);
-  const found = new Set(findings.map(({ code }) => code));
-  return (
-    <>
-      {explained && <p class="fine">{explained}</p>}
-      <Findings findings={findings} />
-      <WarningNotes warnings={warnings.filter(({ code }) => code !== OPEN_FACING && !found.has(code))} views={result.views} />
-      <OpenLimbs view={view} number={number} onSayWhich={onSayWhich} />
-      <AssumptionNotes assumptions={assumptions} heightM={result.height_m} lensMm={lensMm(view)} />
-    </>
-  );
-}
-
-function WarningNotes({ warnings, views }: { warnings: readonly Remark[]; views: FitResult["views"] }) {
-  return (
-    <>
-      {warnings.map((remark) => (
-        <p class="note" key={remark.code + remark.reason}>
-          {withTitles(remarked(remark), views)}
-        </p>
-      ))}
-    </>
-  );
-}
-
-/** A message of the service with its pictures as people call them: `views.1` is the side picture. */
-function withTitles(message: string, views: FitResult["views"]): string {
-  const titles = viewTitles(views);
-  return message.replace(/\bviews\.(\d+)\b/g, (whole, number: string) => titles[Number(number)] ?? whole);
-}
-
-/** Whether there is anything to do about a picture, or to know of it before it is believed. */
-function hasNotes({ verdict, outcome, findings, warnings, limb_facing }: ViewResult): boolean {
-  return verdict !== "plausible" || outcome !== "converged" || findings.length + warnings.length > 0 || limb_facing.some(({ ambiguous }) => ambiguous);
-}
-
-function OpenLimbs({ view, number, onSayWhich }: Omit<PictureProps, "result">) {
-  const { points, result: words } = messages;
-  const open = view.limb_facing.filter(({ ambiguous }) => ambiguous);
-  if (open.length === 0) return null;
-  return (
-    <p class="note">
-      {words.openFacing(listed(open.map(({ limb, facing }) => words.slants[facing](wordFor(points.limbs, limb) ?? plainName(limb)))))}
-      {onSayWhich && " "}
-      {onSayWhich && (
-        <button class="link" type="button" onClick={() => onSayWhich(open.map(({ limb }) => limb), number)}>
-          {words.sayWhich}
-        </button>
-      )}
-    </p>
-  );
-}
-
-export function ForExperts({ result }: Pick<Props, "result">) {
-  const { agreement, cues, energies, evaluations, stage_seconds, views } = result;
+export function Quality({ result, onAct }: Props) {
   const { result: words } = messages;
-  const titles = viewTitles(views);
+  const grade = gradeOf(result);
+  const first = firstOf(result);
   return (
-    <details class="section fold-section experts">
+    <>
+      <div class="result-title">
+        <h1 class="title">{headingOf(result)}</h1>
+        <span class={`grade is-${grade}`} data-grade={grade}>
+          {words.grades[grade]}
+        </span>
+      </div>
+      <p class="quality">{first ? <Told note={first} views={result.views} onAct={onAct} /> : words.noDoubt}</p>
+    </>
+  );
+}
+
+/** All that the sentence beside the grade does not say. */
+export function MoreNotes({ result, onAct, onAdjust }: Props & { readonly onAdjust: ((number: number) => void) | null }) {
+  const { result: words } = messages;
+  const first = firstOf(result);
+  const more = notesOf(result).filter((note) => note.text !== first?.text);
+  const titles = viewTitles(result.views);
+  if (more.length === 0) return null;
+  return (
+    <details class="section fold-section more-notes">
       <summary>
-        <h2>{words.expert}</h2>
+        <h2>{first ? words.moreNotes(more.length) : words.notes(more.length)}</h2>
       </summary>
-      <p class="fine">{words.foundBy[cues]}</p>
-      {agreement !== null && <p class="fine">{words.agreement(percent(agreement, agreement < 0.01 ? 1 : 0))}</p>}
-      {views.map((view, number) => (
-        <>
-          {views.length > 1 && <h3>{titles[number]}</h3>}
-          <PictureFacts view={view} />
-        </>
-      ))}
-      <dl class="facts">
-        {Object.entries(energies).map(([name, value]) => (
-          <>
-            <dt>{plainName(name)}</dt>
-            <dd>{decimal(value, 1)}</dd>
-          </>
+      <ul>
+        {more.map((note) => (
+          <li key={note.text} class={`note ${note.isProblem ? "is-problem" : ""}`} data-code={note.code}>
+            <Told note={note} views={result.views} onAct={onAct} />
+          </li>
         ))}
-        <dt>{words.evaluations}</dt>
-        <dd>{decimal(evaluations)}</dd>
-        <dt>{words.time}</dt>
-        <dd>{seconds(Object.values(stage_seconds).reduce((sum, each) => sum + each, 0), 1)}</dd>
-      </dl>
+      </ul>
+      {titles.length > 1 && onAdjust && (
+        <div class="row">
+          {titles.map((title, number) => (
+            <button key={title} class="button is-small" type="button" onClick={() => onAdjust(number)}>
+              {words.adjustOf(title)}
+            </button>
+          ))}
+        </div>
+      )}
     </details>
   );
 }
 
-/** How well the body covers the person, with which lens, in which light and of which skin. */
-function PictureFacts({ view }: { view: ViewResult }) {
-  const { result: words } = messages;
-  const { light, reflectance } = view;
+function Told({ note, views, onAct }: { note: Note; views: FitResult["views"]; onAct: Acting }) {
+  const { frame, result: words } = messages;
+  const { deed, number, text } = note;
   return (
-    <dl class="facts">
-      <dt>{words.overlap}</dt>
-      <dd>{percent(view.silhouette_overlap, 1)}</dd>
-      <dt>{words.lens}</dt>
-      <dd>{words.lensOf(measured(lensMm(view), "millimeter"), words.sources[view.focal_length_source])}</dd>
-      {light && (
-        <>
-          <dt>{words.light}</dt>
-          <dd>{lightWords(light)}</dd>
-        </>
+    <>
+      {views.length > 1 && number !== null ? frame.ofField(viewTitles(views)[number]!, text) : text}
+      {deed && onAct && " "}
+      {deed && onAct && (
+        <button class="link" type="button" onClick={() => onAct(note)}>
+          {words.deeds[deed]}
+        </button>
       )}
-      {reflectance && (
-        <>
-          <dt>{words.skin}</dt>
-          <dd>
-            {words.skinOf(percent(reflectance.mean_albedo), percent(reflectance.mean_specularity))}; {words.ambient(decimal(reflectance.ambient, 2))}
-          </dd>
-        </>
-      )}
-    </dl>
+    </>
   );
-}
-
-/** The focal length as on 35 mm film. */
-function lensMm({ image_camera: camera }: ViewResult): number {
-  return (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
-}
-
-function lightWords(light: NonNullable<ViewResult["light"]>): string {
-  const { result: words } = messages;
-  const [azimuth, elevation, distance] = [light.azimuth_deg ?? 0, light.elevation_deg ?? 0, light.distance_m ?? null];
-  const side = azimuth > 0 ? words.fromRight : words.fromLeft;
-  const height = elevation > 0 ? words.fromAbove : words.fromBelow;
-  const away = distance === null ? words.lightFar : words.lightAway(measured(distance, "meter", 1));
-  return [side(degrees(Math.abs(azimuth))), height(degrees(Math.abs(elevation))), away].join(", ");
 }

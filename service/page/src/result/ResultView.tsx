@@ -8,8 +8,10 @@ import { PreviewBar } from "../flip/PreviewBar";
 import { areAllEmpty, isTurnedLimb } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import { useFlips } from "../flip/useFlips";
+import { THUMBNAIL_PX, amend } from "../history/store";
 import { messages } from "../messages";
 import { viewTitles } from "../messages/viewNames";
+import { START_ADDRESS, go } from "../route";
 import { useSkin } from "../products/skin";
 import { useEscape } from "../ui/escape";
 import { later } from "../ui/later";
@@ -21,11 +23,14 @@ import { Loading } from "./Loading";
 import { Look } from "./Look";
 import type { Shown } from "./Look";
 import { Measures, rowOf } from "./Measures";
-import { ForExperts, Notes } from "./Notes";
+import { ForExperts } from "./ForExperts";
+import { MoreNotes, Quality } from "./Notes";
 import { Withheld } from "./Withheld";
 import { measureAnyway } from "./again";
 import { useResultFiles } from "./files";
-import { gradeOf, headingOf, isReliable as reliable } from "./quality";
+import type { Note } from "./remarks";
+import { isReliable as reliable } from "./quality";
+import type { Snapshot } from "../viewer/DerivedCanvas";
 
 // What can be made of a result is loaded after the result.
 const ProductsPanel = later(() => import("../products/ProductsPanel").then((loaded) => loaded.ProductsPanel), null);
@@ -47,10 +52,15 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   const view = views[number];
   const isReliable = result === null || reliable(result);
   // A body that does not fit is judged over its picture.
-  const onStage = looked ?? (isReliable ? "canonical" : "picture");
   const skin = useSkin(fit.id, result?.verdict === "plausible");
+  const onStage = looked ?? (!isReliable ? "picture" : skin.state === "none" ? "canonical" : "skin");
   const picture = pictures[number] ?? null;
   const turning = useFlips(views, number);
+  const waist = result?.measurements.find(({ name }) => name === "waist_girth_smallest");
+  useEffect(() => {
+    // A fit opened by its link is in the history once its pictures are there.
+    if (waist && picture) amend(fit.id, { waistCm: waist.value });
+  }, [waist, picture]);
   const stage = useRef<HTMLDivElement>(null);
   const hasResult = result !== null;
   useEffect(() => {
@@ -79,6 +89,11 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     lookAt("picture");
     seek(limb);
   };
+  const act = ({ deed, limbs, number: of }: Note) => {
+    if (deed === "another") go(START_ADDRESS);
+    else if (deed === "limbs") sayWhich(limbs, of ?? 0);
+    else correct?.(of ?? 0);
+  };
   if (problem) {
     return (
       <main class="ended">
@@ -94,14 +109,18 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   return (
     <main class="bench is-result" aria-busy={files === null || number !== wanted} data-fit={fit.id}>
       <header class="result-head">
-        <div class="result-title">
-          <h1 class="title">{result ? headingOf(result) : words.body}</h1>
-        </div>
-        {result ? <Quality result={result} /> : <p class="fine">{words.loading}</p>}
+        {result ? (
+          <Quality result={result} onAct={picture && act} />
+        ) : (
+          <>
+            <h1 class="title">{words.body}</h1>
+            <p class="fine">{words.loading}</p>
+          </>
+        )}
         {result && result.measurements.length > 0 && <Figures measurements={result.measurements} reliable={isReliable} />}
       </header>
       <div class="bench-stage" ref={stage}>
-        {product && <ProductStage product={product} onBack={() => setProduct(null)} />}
+        {product && <ProductStage product={product} skin={skin.path} onBack={() => setProduct(null)} />}
         {result && files && picture ? (
           <Look
             fit={fit}
@@ -114,6 +133,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             shown={onStage}
             onShow={lookAt}
             skin={skin}
+            onColour={(take) => remembered(fit.id, take)}
             turning={turning}
             onFlip={flipOnBody}
             measure={pointedAt ?? shown}
@@ -129,7 +149,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       </div>
       <div class="panel">
         <div class="panel-scroll">
-          {result && <Notes result={result} onSayWhich={picture && sayWhich} onCorrect={correct} />}
+          {result && <MoreNotes result={result} onAct={picture && act} onAdjust={correct} />}
           {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureAnyway(fit)} />}
           {result && result.measurements.length > 0 && (
             <Measures
@@ -192,13 +212,10 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   );
 }
 
-function Quality({ result }: { result: FitResult }) {
-  const grade = gradeOf(result);
-  return (
-    <p class={`quality is-${grade}`} data-grade={grade}>
-      {messages.result.grades[grade]}
-    </p>
-  );
+/** In the history a fit is known by its body. */
+function remembered(id: string, take: Snapshot): void {
+  const seen = take(THUMBNAIL_PX);
+  if (seen) amend(id, { thumbnail: seen.toDataURL("image/jpeg", 0.7) });
 }
 
 /** Those of the result, with the table that is written when it is asked for, and the body in its skin. */

@@ -33,6 +33,6 @@ async function fitAgain(fit: Fit, changed: (asked: FitRequest) => FitRequest): P
   const begun = await submitFit({ ...asked, views: (await Promise.all(views)) as FitRequest["views"] });
   seen(begun);
   const known = entries.value.find(({ id }) => id === fit.id);
-  if (known) remember({ ...known, id: begun.id, startedAt: begun.created_at });
+  if (known) remember({ id: begun.id, name: known.name, thumbnail: known.thumbnail, startedAt: begun.created_at });
   go(fitAddress(begun.id));
 }

@@ -21,13 +21,22 @@ export function isReliable(result: Judged): boolean {
   return gradeOf(result) !== "poor";
 }
 
-export function headingOf({ verdict, views }: Pick<FitResult, "verdict"> & { readonly views: readonly Pick<ViewResult, "outcome">[] }): string {
+/** Whether somebody placed all the points: then no person was looked for, and none can be missing. */
+function isByHand(views: readonly Pick<ViewResult, "assumptions">[]): boolean {
+  return views.every(({ assumptions }) => assumptions.every(({ code }) => code !== "points-proposed"));
+}
+
+type Headed = Pick<FitResult, "verdict"> & { readonly views: readonly Pick<ViewResult, "outcome" | "assumptions">[] };
+
+export function headingOf({ verdict, views }: Headed): string {
   const { result: words } = messages;
+  if (verdict === "no_person" && isByHand(views)) return words.mismatch;
   const isPoor = views.some(({ outcome }) => outcome === "poor_fit");
   return wordFor(words.verdicts, verdict) ?? (isPoor ? words.poorFit : words.body);
 }
 
 /** What contradicts the body, and what to do; null where nothing does. */
-export function contradictionOf({ verdict, outcome_explanation: explained }: Pick<FitResult, "verdict" | "outcome_explanation">): string | null {
-  return verdict === "plausible" ? null : (answered("verdicts", verdict) ?? explained);
+export function contradictionOf({ verdict, views, outcome_explanation: explained }: Headed & Pick<FitResult, "outcome_explanation">): string | null {
+  if (verdict === "plausible") return null;
+  return answered("verdicts", verdict === "no_person" && isByHand(views) ? "mismatch" : verdict) ?? explained;
 }

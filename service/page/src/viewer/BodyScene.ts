@@ -3,6 +3,7 @@ import { Scene, Vector3, WebGLRenderer } from "three";
 import { NO_FLIPS } from "../flip/flips";
 import type { Flips, TurnedLimb } from "../flip/flips";
 import { facingOf } from "./facing";
+import { fittedProjection } from "./fittedCamera";
 import { Floor } from "./Floor";
 import type { GlbBody } from "./glb";
 import { bodyPart } from "./bodyPart";
@@ -218,24 +219,14 @@ export class BodyScene {
     this.table.camera.updateProjectionMatrix();
   }
 
-  /** The pinhole of the fit: at the origin, along -z, its centre where the picture's is. */
   private useFittedCamera(): void {
     const { camera } = this.body;
     if (!camera) return;
-    const near = 0.02;
-    const far = 100;
     const fitted = this.table.camera;
     fitted.position.set(0, 0, 0);
     fitted.quaternion.identity();
     fitted.updateMatrixWorld();
-    fitted.projectionMatrix.makePerspective(
-      (-camera.cx / camera.fx) * near,
-      ((camera.width - camera.cx) / camera.fx) * near,
-      (camera.cy / camera.fx) * near,
-      (-(camera.height - camera.cy) / camera.fx) * near,
-      near,
-      far,
-    );
+    fitted.projectionMatrix.copy(fittedProjection(camera, fitted.aspect));
     fitted.projectionMatrixInverse.copy(fitted.projectionMatrix).invert();
   }
 }

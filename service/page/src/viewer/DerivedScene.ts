@@ -15,9 +15,10 @@ import {
   WebGLRenderer,
 } from "three";
 import { Floor } from "./Floor";
-import type { GlbBody } from "./glb";
+import type { GlbBody, GlbCamera } from "./glb";
 import { momentOf } from "./motion";
 import type { Motion } from "./motion";
+import { Emerging } from "./fittedCamera";
 import { SIDES, Turntable } from "./Turntable";
 import type { Side } from "./Turntable";
 
@@ -28,8 +29,8 @@ const CLAY = 0xdfd3c5;
 const KEY_FROM = new Vector3(-0.5, 0.6, 1);
 
 interface View {
-  /** From where it is seen first, radians to the right of +z. */
-  readonly azimuth: number;
+  /** From where it is seen first, radians to the right of +z; null is from where the camera stood. */
+  readonly azimuth: number | null;
   /** Where it faces, radians to the right of +z. */
   readonly facing: number;
   /** Whether it stands on something: not where the camera's tilt is not known. */
@@ -43,13 +44,14 @@ export class DerivedScene {
   private readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial | MeshLambertMaterial>;
   private readonly floor: Floor | null;
   private motion: Motion | null = null;
+  private emerging: Emerging | null = null;
   private scheduled = 0;
   /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
   private isSized = false;
 
   constructor(
     canvas: HTMLCanvasElement,
-    body: GlbBody,
+    private readonly body: GlbBody,
     private readonly image: ImageBitmap | null,
     private readonly view: View,
   ) {
@@ -116,13 +118,35 @@ export class DerivedScene {
     this.draw();
   }
 
-  /** Turn by itself, until somebody turns it. */
-  turnByItself(): void {
-    this.table.turnByItself();
+  /** Turn once round by itself, unless somebody turns it. */
+  turnOnce(): void {
+    this.table.turnOnce();
+  }
+
+  /** Come out of the picture that this camera took and that lies below the canvas, then turn once. */
+  emerge(camera: GlbCamera): void {
+    this.emerging = new Emerging(camera, this.body);
+    this.table.enabled = false;
+    this.draw();
   }
 
   turnBy(key: string): boolean {
     return this.table.turnBy(key);
+  }
+
+  /** The whole as it is turned, as a picture of that height on the page's ground; the canvas keeps nothing between two draws. */
+  seen(height = this.renderer.domElement.height): HTMLCanvasElement {
+    const { domElement } = this.renderer;
+    this.renderer.render(this.scene, this.table.camera);
+    const picture = document.createElement("canvas");
+    const scale = height / domElement.height;
+    [picture.width, picture.height] = [Math.round(scale * domElement.width), height];
+    const context = picture.getContext("2d")!;
+    context.fillStyle = getComputedStyle(domElement).getPropertyValue("--room");
+    context.fillRect(0, 0, picture.width, height);
+    context.drawImage(domElement, 0, 0, picture.width, height);
+    this.render();
+    return picture;
   }
 
   resize(width: number, height: number): void {
@@ -145,9 +169,11 @@ export class DerivedScene {
     this.renderer.dispose();
   }
 
-  private lookFrom(azimuth: number): void {
+  private lookFrom(azimuth: number | null): void {
     const box = new Box3().setFromObject(this.mesh, true);
-    this.table.lookAt({ centre: box.getCenter(new Vector3()), size: box.getSize(new Vector3()) }, azimuth);
+    const centre = box.getCenter(new Vector3());
+    // The camera stood at the origin.
+    this.table.lookAt({ centre, size: box.getSize(new Vector3()) }, azimuth ?? Math.atan2(-centre.x, -centre.z));
   }
 
   private layFloor(every = 1): void {
@@ -167,7 +193,16 @@ export class DerivedScene {
 
   private render(): void {
     if (!this.isSized) return;
-    this.renderer.render(this.scene, this.table.camera);
+    const now = performance.now();
+    const { emerging } = this;
+    if (this.floor) this.floor.mesh.visible = emerging === null;
+    this.renderer.render(this.scene, emerging?.at(now, this.table.camera) ?? this.table.camera);
+    if (emerging) this.draw();
+    if (emerging?.isOver(now)) {
+      this.emerging = null;
+      this.table.enabled = true;
+      this.turnOnce();
+    }
     this.renderer.domElement.dataset.shows = this.mesh.material.map ? "texture" : "clay";
   }
 }

@@ -45,19 +45,23 @@ export class Turntable {
     this.controls.addEventListener("start", () => this.taken());
   }
 
-  /** Turn by itself, while it is shown, until somebody turns it. */
-  turnByItself(): void {
+  /** Turn once round by itself, while it is shown, unless somebody turns it. */
+  turnOnce(): void {
     this.controls.autoRotate = true;
+    let left = TURN_S;
     this.controls.autoRotateSpeed = SECONDS_PER_MINUTE / TURN_S;
     let before = performance.now();
     const step = (now: number) => {
       if (this.looked && this.canvas.checkVisibility()) {
-        this.controls.update((now - before) / 1000);
+        const by = Math.min(left, (now - before) / 1000);
+        this.controls.update(by);
+        left -= by;
         // A step round the body is still the whole of it.
         this.looked = [this.looked[0], this.controls.getAzimuthalAngle()];
       }
       before = now;
-      this.turning = requestAnimationFrame(step);
+      if (left > 0) this.turning = requestAnimationFrame(step);
+      else this.controls.autoRotate = false;
     };
     this.turning = requestAnimationFrame(step);
   }

@@ -29,6 +29,8 @@ export interface GlbBody {
   /** Places in the texture, from its upper left corner. */
   readonly uv: Float32Array | null;
   readonly texture: Blob | null;
+  /** Of a body with a texture, which is cut along seams: the number of each vertex in one that is not. */
+  readonly uncut: Float32Array | null;
   /** Whether its colours have their light in them. */
   readonly unlit: boolean;
   readonly camera: GlbCamera | null;
@@ -101,11 +103,20 @@ export function readGlb(content: ArrayBuffer): GlbBody {
     specularity: floats("_SPECULARITY"),
     uv: floats("TEXCOORD_0"),
     texture: textureOf(document, content, binary),
+    uncut: floats("_VERTEX"),
     unlit: document.materials?.[0]?.extensions?.KHR_materials_unlit !== undefined,
     camera: cameraOf(document),
     light: lightOf(document),
     upright: document.nodes.find((each) => each.name === "upright")?.rotation ?? null,
   };
+}
+
+/** A body in the texture of another, of the same mesh; as it is where that has none. */
+export function dressed(body: GlbBody, skin: GlbBody): GlbBody {
+  const { uncut, uv, triangles, texture, unlit } = skin;
+  if (!uncut) return body;
+  const cut = (values: Float32Array) => Float32Array.from({ length: 3 * uncut.length }, (_, i) => values[3 * uncut[Math.floor(i / 3)]! + (i % 3)]!);
+  return { ...body, positions: cut(body.positions), normals: cut(body.normals), uv, triangles, texture, unlit, uncut };
 }
 
 function textureOf({ images, bufferViews }: Document, content: ArrayBuffer, binary: number): Blob | null {

@@ -20,8 +20,6 @@ export const animation: Kind<AnimationWishes> = {
   request: ({ named, motion }) => (motion ? { kind: "animation" } : { kind: "animation", motion: named }),
   part: ({ motion }) => motion && { name: "bvh", file: motion },
   Options: MotionOptions,
-  picture: "animation.webp",
-  moves: true,
   body: { file: "body_animated.glb", label: words.turned },
 };
 

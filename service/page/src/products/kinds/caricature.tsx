@@ -18,6 +18,5 @@ export const caricature: Kind<CaricatureWishes> = {
   Options: ({ wishes: { factor }, onWish }) => (
     <Slider label={words.strength} range={FACTORS} value={factor} text={words.times(typed(factor, 2))} onInput={(factor) => onWish({ factor })} />
   ),
-  picture: "caricature.png",
   body: { file: "body_caricature.glb", label: words.turned },
 };

@@ -25,9 +25,8 @@ export interface Kind<Wishes = unknown> {
   readonly lacks?: (wishes: Wishes) => string | null;
   /** Without it the kind is made without further questions. */
   readonly Options?: (props: OptionProps<Wishes>) => JSX.Element;
-  /** The file that is shown as a picture; one that moves is not shown to who wants calm. */
+  /** The file that is shown as a picture. */
   readonly picture?: string;
-  readonly moves?: boolean;
   /** The body that can be turned on the stage, and what it is called there. */
   readonly body?: { readonly file: string; readonly label: string };
   /** What there is to say of a result of this kind; nothing of any other. */

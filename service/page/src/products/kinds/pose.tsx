@@ -14,7 +14,6 @@ export const FIRST_POSE: PoseWishes = { pose: "standing" };
 export const pose: Kind<PoseWishes> = {
   request: ({ pose }) => ({ kind: "pose", pose }),
   Options: PoseChoice,
-  picture: "pose.png",
   body: { file: "body_reposed.glb", label: messages.products.pose.turned },
 };
 

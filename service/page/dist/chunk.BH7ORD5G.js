@@ -1,1 +1,0 @@
-import{a as n}from"/page/chunk.MATK2VAE.js";import{o}from"/page/chunk.K74SRY7O.js";function c({icon:t,label:e,onClick:r,pressed:a,disabled:l=!1,buttonRef:i}){return o("button",{ref:i,type:"button",class:"icon-button","aria-label":e,title:e,"aria-pressed":a,disabled:l,onClick:r,children:o(n,{name:t})})}export{c as a};
