@@ -125,7 +125,7 @@ class LandmarkNetwork:
 
         ``from_behind`` is that the person is said to be seen so.
         """
-        crop = _crop_about(person)
+        crop = crop_about(person)
         cut = crop.cut_from(picture).astype(np.float32) / 255.0
         looks = self._both_ways(cut)
         head = crop.in_picture(_mean([each.pixels[FACE] for each in looks])).mean(axis=0)
@@ -256,7 +256,7 @@ def _mean(values: Sequence[np.ndarray]) -> np.ndarray:
     return np.mean(values, axis=0)
 
 
-def _crop_about(person: DetectedPerson) -> SquareCrop:
+def crop_about(person: DetectedPerson) -> SquareCrop:
     """The square that shows a person upright."""
     along = person.rim - person.middle
     return SquareCrop(

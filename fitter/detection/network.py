@@ -1,7 +1,8 @@
 """A network run on one thread."""
 
 import os
-from collections.abc import Iterator, Mapping
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,6 +57,36 @@ class Network:
             tuple(each["shape"][1:].tolist()): self._interpreter.get_tensor(each["index"])[0]
             for each in self._outputs
         }
+
+
+class ActivationNetwork:
+    """A LiteRT model that takes one picture, with everything it computes on its way.
+
+    Parameters
+    ----------
+    file
+        As for :class:`Network`.
+    """
+
+    def __init__(self, file: Path) -> None:
+        from ai_edge_litert.interpreter import Interpreter
+
+        with _standard_error_withheld(), warnings.catch_warnings():
+            # It warns that memory grows: by the activations, 40 MB here.
+            warnings.simplefilter("ignore")
+            self._interpreter = Interpreter(
+                model_path=str(file), num_threads=1, experimental_preserve_all_tensors=True
+            )
+            self._interpreter.allocate_tensors()
+        self._input = self._interpreter.get_input_details()[0]["index"]
+
+    def activations(
+        self, picture: Float32[np.ndarray, "s s 3"], wanted: Sequence[int]
+    ) -> Mapping[int, np.ndarray]:
+        """Some of the tensors for a picture, by their numbers, without the leading 1."""
+        self._interpreter.set_tensor(self._input, picture[None])
+        self._interpreter.invoke()
+        return {each: self._interpreter.get_tensor(each)[0] for each in wanted}
 
 
 def logistic(values: np.ndarray) -> Float[np.ndarray, "..."]:

@@ -7,8 +7,7 @@ from jaxtyping import Float
 
 from fitter.render.rasterizer import Rendering
 from fitter.vocabulary.points import FACE_POINT_NAMES, LIMB_POINT_NAMES
-from tests.accuracy.landmark_points import landmarks_on
-from tests.accuracy.people import INNER_POINT_BONES
+from tests.accuracy.people import INNER_POINT_BONES, landmarks_on
 from tests.accuracy.staging import Staged
 
 CLICK_DEVIATION_PX = 2.5

@@ -16,7 +16,7 @@ from PIL import Image as PillowImage
 from fitter.parameters import Light
 from fitter.request import Click, FitRequest
 from fitter.vocabulary.choices import Gender, LightKind
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.scene import Half, Series
 from tests.accuracy.true_picture import VISIBLE, TruePicture
 from tests.accuracy.truth import MOVED_PARTS, TrueBody, light_toward, part_of_joint

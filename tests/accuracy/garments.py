@@ -1,51 +1,44 @@
-"""Loose clothes over a posed body: surfaces of level of a field of distances.
+"""Clothes of a case as meshes: the training's garments (:mod:`fitter.training.dressed`), cut and
+coloured as the case says."""
 
-A garment lies at a distance from the skin it covers, its ease; where the body tapers below, it
-hangs on from what is above it; it bridges hollows, has folds, and ends at hem, cuff and neckline.
-It is the level zero of a field on a lattice: distance less ease, smoothed, pulled down, roughened.
-"""
-
-from collections.abc import Mapping
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from jaxtyping import Float
-from scipy.ndimage import gaussian_filter
+from scipy.spatial import KDTree
 
-from tests.accuracy.garment_fields import (
-    ARM_PARTS,
-    LEG_PARTS,
-    Lattice,
-    Sheet,
-    SkinSamples,
-    cloth_mesh,
+from fitter.detection.worn_parts import WornPart
+from fitter.training.dressed.bodies import StandingBody, rest_body
+from fitter.training.dressed.garments import (
+    OUTER_RANK,
+    SKIRT_RANK,
+    TOP_RANK,
+    LegsCut,
+    UpperCut,
+    front_gap,
     hung,
-    lattice_round,
-    sheet_of,
-    skin_distance,
-    skin_samples,
+    legs,
+    neckline,
+    upper,
 )
-from tests.accuracy.landmark_points import rest_landmarks
-from tests.accuracy.meshes import PersonMesh
-from tests.accuracy.noise import smooth_step
-from tests.accuracy.scene import Bottom, Cloth, Label, Shoes, Top
-from tests.accuracy.staging import Staged
+from fitter.training.dressed.heads_and_feet import SHOE_RANK, shod
+from fitter.training.dressed.pictures import FOLD_M, fold_heights
+from fitter.training.dressed.surfaces import Hang, Layer, Paint, Places, noise, smooth_step
+from tests.accuracy.looks import CLOTH_ROUGHNESS
+from tests.accuracy.meshes import PersonMesh, vertex_normals
+from tests.accuracy.people import landmarks_on
+from tests.accuracy.scene import Bottom, Cloth, Label, Outfit, Pattern, Shoes, Top
+from tests.accuracy.staging import Staged, root_joint
 
-CLEARANCE_M = 0.006
-"""Shoes are no nearer to the skin."""
+REPEAT_M = 0.07
+"""Distance from one stripe to the next."""
 
-CUFF_M, CUFF_EASE_M, BLOUSING = 0.04, 0.006, 0.8
-"""A ribbed cuff's breadth, how far it stands off, and how steeply cloth widens above it."""
+WEAVE = 0.06
 
-SHOE_HEIGHT_M, SHOE_EASE_M = 0.075, 0.008
-"""A low shoe's edge above the foot's sole."""
+APART_M, NEAR_M = 0.005, 0.03
+"""Cloth lies so far over what is under it, and over what is so near."""
 
-ARM_LENGTH_M = 0.55
-"""About: turns shares of an arm into metres."""
-
-NECK_DEPTH_M = 0.14
-"""About: from the nape to the front of the neck's root."""
-
-SIDES = ("left", "right")
+SHOE_EASE_M = 0.008
 
 
 def garment_meshes(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
@@ -53,219 +46,169 @@ def garment_meshes(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]
     outfit = staged.case.outfit
     if outfit is None:
         return []
-    samples = skin_samples(staged)
-    meshes: list[PersonMesh] = []
-    if outfit.top is not None:
-        label = Label.LOWER if outfit.bottom is None else Label.UPPER
-        meshes.append(_top(staged, samples, outfit.top, label, rng))
-    if outfit.bottom is not None:
-        over = outfit.bottom.waist if outfit.top is None else outfit.top.hem
-        meshes.append(_bottom(staged, samples, outfit.bottom, over, rng))
-    if outfit.jacket is not None:
-        meshes.append(_top(staged, samples, outfit.jacket, Label.UPPER, rng))
-    if outfit.shoes is not None:
-        meshes += [_shoe(staged, samples, outfit.shoes, side, rng) for side in SIDES]
+    body, root = _body(staged), root_joint(staged)
+    under, meshes = [(staged.body, vertex_normals(staged.body, body.rest.model.triangles))], []
+    for label, layer in sorted(_layers(body, outfit, rng), key=lambda each: each[1].rank):
+        mesh = _mesh(layer, root, label, under, rng)
+        used = np.unique(mesh.triangles)
+        under.append((mesh.vertices[used], mesh.normals[used]))
+        meshes.append(mesh)
     return meshes
 
 
-def _top(
-    staged: Staged, samples: SkinSamples, top: Top, label: Label, rng: np.random.Generator
-) -> PersonMesh:
-    marks = rest_landmarks(staged.person)
-    body = samples.of(("head", "neck", "chest", "spine", "pelvis", *LEG_PARTS))
-    sleeves = samples.of(("left_upper_arm", "right_upper_arm", "left_forearm", "right_forearm"))
-    hem = _floor(staged) + top.hem * _stature(samples)
-    lattice = lattice_round(samples, np.concatenate([body.points, sleeves.points]), lowest=hem)
-    bust = 0.5 * (marks["left_nipple"] + marks["right_nipple"])[1]
-    shoulder = marks["left_acromion"][1]
-    distance, nearest = skin_distance(lattice, body)
-    ease = _grown(top.cloth.ease_m, shoulder - body.rest[:, 1], 0.02, shoulder - bust + 0.18)
-    trunk = hung(
-        lattice,
-        (distance - ease[nearest]).reshape(lattice.shape),
-        from_height=float(np.median(body.points[np.abs(body.rest[:, 1] - bust) < 0.02, 1])),
+def _body(staged: Staged) -> StandingBody:
+    gender = staged.person.gender
+    rest, vertices = rest_body(gender), staged.body - root_joint(staged)
+    return StandingBody(
+        rest=rest,
+        vertices=vertices,
+        normals=vertex_normals(vertices, rest.model.triangles),
+        marks=landmarks_on(gender, vertices),
+    )
+
+
+def _layers(
+    body: StandingBody, outfit: Outfit, rng: np.random.Generator
+) -> Iterator[tuple[Label, Layer]]:
+    tops = (outfit.top, Label.LOWER if outfit.bottom is None else Label.UPPER, TOP_RANK)
+    for top, label, rank in (tops, (outfit.jacket, Label.UPPER, OUTER_RANK)):
+        if top is not None:
+            yield from (
+                (label, each) for each in upper(body, _upper_cut(body, top, rank, rng), rng)
+            )
+    if outfit.bottom is not None:
+        yield from ((Label.LOWER, each) for each in _bottom(body, outfit.bottom, rng))
+    if outfit.shoes is not None:
+        yield Label.SHOES, _shoes(body, outfit.shoes, rng)
+
+
+def _upper_cut(body: StandingBody, top: Top, rank: float, rng: np.random.Generator) -> UpperCut:
+    ease, cuffed = top.cloth.ease_m, top.cuffs
+    return UpperCut(
+        part=WornPart.CLOTH,
+        paint=_paint(top.cloth, rng),
+        rank=rank,
+        ease_m=0.5 * ease,
+        hang=lambda share: ease * np.where(cuffed & (share > 0.93), 0.2, 1.0),
+        hem=_height(body, top.hem),
+        sleeve=top.sleeve - 0.02,
+        neck=neckline(body, "scoop", top.neckline_m, 0.08),
         fall=top.cloth.fall,
-    )
-    # A plane through the nape and the front of the neck's root.
-    back, front = marks["cervicale"], shoulder - top.neckline_m
-    along = (body.rest[:, 2] - back[2]) / NECK_DEPTH_M
-    above = body.rest[:, 1] - (back[1] + 0.02 + along * (front - back[1] - 0.02))
-    over_hem = lattice.points()[:, 1] - hem
-    cut = np.maximum(above[nearest], -over_hem)
-    if top.cuffs:
-        trunk = np.maximum(trunk, _gathered(distance, over_hem).reshape(lattice.shape))
-    if top.opening_m > 0.0:
-        cut = np.maximum(cut, _opening(lattice, body, nearest, top, marks))
-    sheets = [sheet_of(lattice, trunk, distance, cut)]
-    bare = [samples.of(("left_hand", "right_hand"))]
-    for side in SIDES:
-        if top.sleeve > 0.0:
-            sheets.append(_sleeve(lattice, samples, side, top, marks))
-            arm = samples.of((f"{side}_forearm",))
-        else:
-            arm = samples.of((f"{side}_upper_arm", f"{side}_forearm"))
-        bare.append(arm.chosen(samples.along_arm(arm, side) > top.sleeve + 0.05))
-    top_height = float(shoulder) - float(samples.rest[:, 1].min())
-    return cloth_mesh(
-        lattice,
-        sheets,
-        bare,
-        top.cloth,
-        rng,
-        top_height=top_height,
-        clearance=top.clearance_m,
-        label=label,
+        drop_m=0.02,
+        folds=top.cloth.fold_m / FOLD_M,
+        opening=front_gap(body, rng, 0.6 * top.opening_m) if top.opening_m > 0.0 else None,
     )
 
 
-def _gathered(
-    distance: Float[np.ndarray, " k"], before_edge: Float[np.ndarray, " k"]
-) -> Float[np.ndarray, " k"]:
-    """A field that a ribbed cuff bounds: close at the edge, where the garment blouses over it."""
-    rise = np.maximum(before_edge - CUFF_M, 0.0)
-    return distance - (CUFF_EASE_M + BLOUSING * rise)
-
-
-def _opening(
-    lattice: Lattice,
-    samples: SkinSamples,
-    nearest: np.ndarray,
-    top: Top,
-    marks: Mapping[str, Float[np.ndarray, "3"]],
-) -> Float[np.ndarray, " k"]:
-    """Positive where an open jacket shows what is under it: before the trunk, wider downward.
-
-    ``nearest`` (k,) is the sample nearest to each place of the lattice.
-    """
-    rest, shoulder = samples.rest, marks["left_acromion"][1]
-    down = smooth_step(shoulder - rest[:, 1], -0.05, shoulder - marks["crotch"][1])
-    half = top.opening_m * (0.55 + 0.45 * down)
-    before = rest[:, 2] > marks["cervicale"][2] + 0.4 * NECK_DEPTH_M
-    shown = np.where(before, half - np.abs(rest[:, 0]), -half)[nearest]
-    return gaussian_filter(shown.reshape(lattice.shape), 1.0).ravel()
-
-
-def _sleeve(
-    lattice: Lattice,
-    samples: SkinSamples,
-    side: str,
-    top: Top,
-    marks: Mapping[str, Float[np.ndarray, "3"]],
-) -> Sheet:
-    arm = samples.of((*(f"{side}_{part}" for part in ARM_PARTS), "chest"))
-    along = samples.along_arm(arm, side)
-    distance, nearest = skin_distance(lattice, arm)
-    ease = _grown(0.85 * top.cloth.ease_m, along, -0.05, 0.45)
-    ease[arm.is_part("chest")] = min(0.004, top.cloth.ease_m)
-    # Short of the shoulder the trunk's own field goes on.
-    cut = ARM_LENGTH_M * np.maximum(along[nearest] - top.sleeve, -0.15 - along[nearest])
-    if top.opening_m > 0.0:
-        # A sleeve's sheet goes on over the chest.
-        cut = np.maximum(cut, _opening(lattice, arm, nearest, top, marks))
-    field = distance - ease[nearest]
-    if top.cuffs:
-        field = np.maximum(field, _gathered(distance, ARM_LENGTH_M * (top.sleeve - along[nearest])))
-    return sheet_of(lattice, field, distance, cut)
-
-
-def _bottom(
-    staged: Staged, samples: SkinSamples, bottom: Bottom, over: float, rng: np.random.Generator
-) -> PersonMesh:
-    """Close to the body as far down as a top hangs over it."""
-    marks = rest_landmarks(staged.person)
-    stature, floor = _stature(samples), float(samples.rest[:, 1].min())
-    waist, hem = floor + bottom.waist * stature, _floor(staged) + bottom.hem * stature
-    crotch = float(marks["crotch"][1])
-    cloth = bottom.cloth
-    groups = [("pelvis", "spine", "chest", *LEG_PARTS)]
+def _bottom(body: StandingBody, bottom: Bottom, rng: np.random.Generator) -> list[Layer]:
+    cloth, paint = bottom.cloth, _paint(bottom.cloth, rng)
+    waist, hem = _height(body, bottom.waist), _height(body, bottom.hem)
+    folds = cloth.fold_m / FOLD_M
     if not bottom.skirt:
-        groups = [
-            ("pelvis", "spine", "chest", *(part for part in LEG_PARTS if part.startswith(side)))
-            for side in SIDES
-        ]
-    everything = samples.of(groups[0] if bottom.skirt else (*groups[0], *groups[1]))
-    lattice = lattice_round(
-        samples, everything.points[everything.rest[:, 1] < waist + 0.05], lowest=hem
-    )
-    sheets: list[Sheet] = []
-    for parts in groups:
-        part = samples.of(parts)
-        distance, nearest = skin_distance(lattice, part)
-        start = min(floor + over * stature, crotch + 0.06) - 0.01
-        close = min(0.006, 0.5 * cloth.ease_m)
-        ease = close + _grown(cloth.ease_m - close, start - part.rest[:, 1], 0.0, 0.2)
-        seat = float(np.median(part.points[np.abs(part.rest[:, 1] - (crotch + 0.08)) < 0.02, 1]))
-        field = hung(
-            lattice,
-            (distance - ease[nearest]).reshape(lattice.shape),
-            from_height=min(_floor(staged) + over * stature, seat if bottom.skirt else seat - 0.12),
+        cut = LegsCut(
+            paint=paint,
+            waist=waist,
+            hem=hem,
+            close_m=min(0.012, 0.5 * cloth.ease_m),
+            tube_m=cloth.ease_m,
+            cuffed=bottom.cuffs,
             fall=cloth.fall,
+            folds=folds,
         )
-        over_hem = lattice.points()[:, 1] - hem
-        if bottom.cuffs:
-            field = np.maximum(field, _gathered(distance, over_hem).reshape(lattice.shape))
-        above = part.rest[nearest, 1] - waist
-        cut = np.maximum(above, -over_hem)
-        sheets.append(sheet_of(lattice, field, distance, cut))
-    bare = [samples.of(tuple(f"{side}_{part}" for part in ("forearm", "hand"))) for side in SIDES]
-    below = bottom.waist * stature
-    return cloth_mesh(
-        lattice,
-        sheets,
-        bare,
-        cloth,
-        rng,
-        top_height=below,
-        clearance=bottom.clearance_m,
-        label=Label.LOWER,
+        return legs(body, cut, rng)
+    hang = Hang(
+        top_m=waist * body.scale,
+        hem_m=hem * body.scale,
+        ease=lambda share: cloth.ease_m * (0.3 + 0.7 * share),
+        fall=cloth.fall,
+    )
+    about = ~body.rest.on_arms & ~body.rest.on("foot") & (body.rest.points[:, 1] < waist + 0.1)
+    return hung(body, body.vertices[about], hang, paint, rng, SKIRT_RANK, folds)
+
+
+def _shoes(body: StandingBody, shoes: Shoes, rng: np.random.Generator) -> Layer:
+    rest = body.rest
+    ankle, sole = rest.marks["left_ankle"][1], rest.floor + 0.006
+    leather, rubber = np.array(shoes.colour), np.array(shoes.sole_colour)
+    return Layer(
+        vertices=shod(body, SHOE_EASE_M, shoes.sole_m, rng, broad=True),
+        triangles=rest.triangles_of(rest.on_legs & (rest.points[:, 1] < ankle + 0.1)),
+        places=rest.places(),
+        part=WornPart.SHOES,
+        paint=lambda at: np.where((at.y < sole)[:, None], rubber, leather),
+        keeps=lambda at: at.y < ankle,
+        rank=SHOE_RANK,
     )
 
 
-def _shoe(
-    staged: Staged, samples: SkinSamples, shoes: Shoes, side: str, rng: np.random.Generator
+def _height(body: StandingBody, share: float) -> float:
+    """A share of the stature as a height at rest."""
+    return body.rest.floor + share * float(np.ptp(body.rest.points[:, 1]))
+
+
+def _paint(cloth: Cloth, rng: np.random.Generator) -> Paint:
+    first, second = np.array(cloth.colour), np.array(cloth.second_colour)
+    seed = int(rng.integers(1 << 30))
+
+    def paint(at: Places) -> Float[np.ndarray, "k 3"]:
+        own = np.random.default_rng(seed)
+        weave = 1.0 + WEAVE * noise(own, at.points, 0.02)
+        wavering = at.points + 0.004 * noise(own, at.points, 0.2)[:, None]
+        share = np.zeros(len(at.x))
+        if cloth.pattern is not Pattern.PLAIN:
+            share = _band(wavering[:, 1])
+        if cloth.pattern is Pattern.CHECKS:
+            share = 0.5 * (share + _band(wavering[:, 0]))
+        return np.clip((first + share[:, None] * (second - first)) * weave[:, None], 0.003, 0.9)
+
+    return paint
+
+
+def _band(along: Float[np.ndarray, " k"]) -> Float[np.ndarray, " k"]:
+    return smooth_step(np.sin(2.0 * np.pi * along / REPEAT_M), -0.15, 0.15)
+
+
+def _mesh(
+    layer: Layer,
+    root: Float[np.ndarray, "3"],
+    label: Label,
+    under: Sequence[tuple[np.ndarray, np.ndarray]],
+    rng: np.random.Generator,
 ) -> PersonMesh:
-    """Close round the foot to the ankle, and straight down from its widest to the floor."""
-    foot = samples.of((f"{side}_foot", f"{side}_shin"))
-    height = foot.rest[:, 1] - float(samples.rest[:, 1].min())
-    foot = foot.chosen(height < SHOE_HEIGHT_M + 0.06)
-    height = foot.rest[:, 1] - float(samples.rest[:, 1].min())
-    lattice = lattice_round(samples, foot.points, lowest=0.0)
-    distance, nearest = skin_distance(lattice, foot)
-    field = hung(
-        lattice,
-        (distance - SHOE_EASE_M).reshape(lattice.shape),
-        from_height=float(foot.points[:, 1].min()) + 0.02,
-        fall=0.0,
+    """A layer refined, cut, folded, and moved out of what is under it."""
+    vertices, places, triangles = layer.vertices + root, layer.places, layer.triangles
+    for _ in range(2):
+        vertices, places, triangles = _refined(vertices, places, triangles)
+    at = Places(*places.T)
+    kept = np.ones(len(vertices), bool) if layer.keeps is None else layer.keeps(at)
+    triangles = triangles[kept[triangles].all(axis=1)]
+    normals = vertex_normals(vertices, triangles)
+    vertices = vertices + normals * np.reshape(fold_heights(layer, at.points, rng), (-1, 1))
+    for points, outward in under:
+        away, nearest = map(np.asarray, KDTree(points).query(vertices))
+        near = np.flatnonzero(away < NEAR_M)
+        out = outward[nearest[near]]
+        over = ((vertices[near] - points[nearest[near]]) * out).sum(axis=1)
+        vertices[near] += np.maximum(APART_M - over, 0.0)[:, None] * out
+    return PersonMesh(
+        vertices=vertices,
+        normals=vertex_normals(vertices, triangles),
+        triangles=triangles,
+        albedo=np.clip(layer.paint(at), 0.003, 0.9),
+        roughness=np.full(len(vertices), CLOTH_ROUGHNESS),
+        labels=np.full(len(vertices), label),
     )
-    cut = np.maximum(height[nearest] - SHOE_HEIGHT_M, -lattice.points()[:, 1])
-    leather = Cloth(colour=shoes.colour, fold_m=0.0)
-    mesh = cloth_mesh(
-        lattice,
-        [sheet_of(lattice, field, distance, cut)],
-        [],
-        leather,
-        rng,
-        top_height=0.0,
-        clearance=CLEARANCE_M,
-        label=Label.SHOES,
+
+
+def _refined(
+    vertices: np.ndarray, places: np.ndarray, triangles: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Each triangle cut into four at the middles of its edges."""
+    ends = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
+    edges, of_triangle = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
+    middles = len(vertices) + of_triangle.reshape(-1, 3)
+    corners = [np.stack([triangles[:, k], middles[:, k], middles[:, k - 1]], 1) for k in range(3)]
+    vertices, places = (
+        np.concatenate([each, each[edges].mean(axis=1)]) for each in (vertices, places)
     )
-    mesh.albedo[mesh.vertices[:, 1] < shoes.sole_m + 0.006] = shoes.sole_colour
-    return mesh
-
-
-def _floor(staged: Staged) -> float:
-    """Height of the feet's soles, world."""
-    outfit = staged.case.outfit
-    return 0.0 if outfit is None else outfit.sole_m
-
-
-def _stature(samples: SkinSamples) -> float:
-    return float(np.ptp(samples.rest[:, 1]))
-
-
-def _grown(
-    most: float, along: Float[np.ndarray, " k"], start: float, end: float
-) -> Float[np.ndarray, " k"]:
-    """From 5 mm, or less, at ``start`` to ``most`` at ``end``."""
-    least = min(0.005, most)
-    return least + (most - least) * smooth_step(along, start, end)
+    return vertices, places, np.concatenate([*corners, middles])

@@ -1,6 +1,6 @@
 """``python -m tests.accuracy.generate``: (re)build the suite's pictures and truths.
 
-Needs the renderer and marching cubes: the extra ``evaluation``. ``--cases`` draws another file's
+Needs the renderer: the extra ``evaluation``. ``--cases`` draws another file's
 pictures, of the suite's people in other stances, clothes, rooms and light. Noise comes from the
 cases' seeds: a second run gives the same pictures, to the rounding of light added up by threads.
 ``--documents`` writes requests and truths alone, after a change of landmarks or measurement

@@ -12,9 +12,10 @@ from jaxtyping import Float, Integer
 from PIL import Image as PillowImage
 
 from fitter.arrays import Vertices
+from fitter.training.dressed.surfaces import smooth_step
 from fitter.training.makehuman.meshes import makehuman_folder
 from fitter.vocabulary.choices import Gender
-from tests.accuracy.noise import smooth_step, value_noise
+from tests.accuracy.noise import value_noise
 from tests.accuracy.scene import Hair, Label, Look
 
 Landmarks = Mapping[str, Float[np.ndarray, "3"]]

@@ -21,9 +21,3 @@ def value_noise(
         places = (points * 2.0**octave).T
         total += 0.5**octave * map_coordinates(lattice, places, order=3, mode="grid-wrap")
     return total / total.std()
-
-
-def smooth_step(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    """0 below ``low``, 1 above ``high``, smooth between."""
-    share = np.clip((values - low) / (high - low), 0.0, 1.0)
-    return share * share * (3.0 - 2.0 * share)

@@ -15,6 +15,8 @@ from jaxtyping import Float
 from scipy import sparse
 
 from fitter.arrays import Pose, Vertices
+from fitter.body.model import BodyModel, regress
+from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.training.articulation.joints import joint_rows_of_bones
 from fitter.training.articulation.rig import bone_heads, load_rig, posed_vertices
 from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_mesh, with_curled_fingers
@@ -124,3 +126,23 @@ def posed_skin(
 
 def _base() -> BaseMesh:
     return rig_of_people().surface
+
+
+Points = Mapping[str, Float[np.ndarray, "3"]]
+
+
+@cache
+def packaged_model(gender: Gender) -> BodyModel:
+    """The model shipped with the package, for its definitions alone."""
+    return load_body_model(packaged_model_path(gender.value))
+
+
+def landmarks_on(gender: Gender, body: Vertices) -> Points:
+    """The body model's own landmarks by name, on a true mesh, in its frame."""
+    rows = packaged_model(gender).landmarks
+    return dict(zip(rows.names, regress(rows, body), strict=True))
+
+
+def rest_landmarks(person: Person) -> Points:
+    """Landmarks of a person at rest, body frame, metres."""
+    return landmarks_on(person.gender, rig_of_people().surface.body(person.source_vertices))

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vertices
-from tests.accuracy.landmark_points import rest_landmarks
+from tests.accuracy.garments import garment_meshes
 from tests.accuracy.looks import HAIR_ROUGHNESS, Canvas, paint
 from tests.accuracy.meshes import (
     PersonMesh,
@@ -17,7 +17,7 @@ from tests.accuracy.meshes import (
     triangulated,
     vertex_normals,
 )
-from tests.accuracy.people import rig_of_people
+from tests.accuracy.people import rest_landmarks, rig_of_people
 from tests.accuracy.scene import Hair, Label
 from tests.accuracy.staging import Staged, body_group_ids
 
@@ -40,11 +40,6 @@ BUN_BEHIND_EARS_M = 0.115
 def person_meshes(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
     """Body, eyes and lashes, a knot of hair where it is tied, and what is worn."""
     person = [*_body(staged, rng), *_eyes(staged), *_lashes(staged)]
-    if staged.case.outfit is None:
-        return person
-    # Garments need a package that only the making of pictures needs.
-    from tests.accuracy.garments import garment_meshes
-
     return [*person, *garment_meshes(staged, rng)]
 
 

@@ -58,15 +58,6 @@ def linear_picture_and_labels(
     return light[..., :3], _labels(staged, meshes, person)
 
 
-def labels_of(staged: Staged) -> UInt8[np.ndarray, "h w"]:
-    """The labels alone."""
-    _choose_variant()
-    case = staged.case
-    rng = np.random.default_rng(case.seed if case.surface_seed is None else case.surface_seed)
-    meshes = person_meshes(staged, rng)
-    return _labels(staged, meshes, {f"mesh{k}": _shape(mesh) for k, mesh in enumerate(meshes)})
-
-
 def _labels(
     staged: Staged, meshes: Sequence[PersonMesh], person: Mapping[str, Any]
 ) -> UInt8[np.ndarray, "h w"]:

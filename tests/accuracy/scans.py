@@ -13,7 +13,7 @@ from fitter.result import FitResult
 from fitter.vocabulary.choices import Clothing, Cues, ViewKind
 from tests.accuracy.cases import CLOTHED_PAIRS, PHONE_PAIRS, PicturePair
 from tests.accuracy.foreign import foreign_names
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.people_table import PEOPLE
 from tests.accuracy.runs import picture_of
 from tests.accuracy.scene import Half, Kind, Series

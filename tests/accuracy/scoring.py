@@ -15,7 +15,7 @@ from fitter.render.rasterizer import render
 from fitter.render.reflectance import direction_to_light
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.scene import Half, Series
 from tests.accuracy.true_picture import Told, TruePicture, told_request
 from tests.accuracy.truth import TrueBody, joint_error_mm, wrong_limbs

@@ -15,7 +15,7 @@ from fitter.result import FitResult
 from fitter.segmentation.coverage import coverage
 from fitter.segmentation.skin_colour import PersonRegions, face_point, nearest_part, skin_map
 from fitter.vocabulary.choices import BodyRegion, Covering
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.scene import Label
 from tests.accuracy.scoring import resampled, working_scale
 

@@ -11,7 +11,7 @@ from fitter.arrays import GreyImage, Triangles, Vertices
 from fitter.fits.equipment import prepared_model
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import render, shade_image
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.scoring import Fitted, resampled, working_scale
 
 HEIGHT = 420

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from tests.accuracy.noise import smooth_step, value_noise
+from fitter.training.dressed.surfaces import smooth_step
+from tests.accuracy.noise import value_noise
 from tests.accuracy.scene import Floor, Rgb, Surroundings, Wall
 
 PIXELS_PER_METRE = 250

@@ -14,8 +14,7 @@ from fitter.parameters import Light
 from fitter.training.articulation.parts import part_index
 from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE
-from tests.accuracy.landmark_points import packaged_model
-from tests.accuracy.people import Person, posed_body
+from tests.accuracy.people import Person, packaged_model, posed_body
 from tests.accuracy.scene import DISTANT_M
 from tests.accuracy.staging import Staged, lamp_place, root_joint
 

@@ -26,7 +26,7 @@ from fitter.vocabulary.remarks import Code, Severity
 from service.demo_data.sample import load_sample
 from tests.accuracy.cases import CASES
 from tests.accuracy.files import CaseFiles, read_case
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.true_picture import fit_request
 from tests.one_picture import changed, one_picture
 from tests.shared_data import SHARED_DATA, needs_shared

@@ -16,8 +16,8 @@ ROOT: Final = Path(__file__).parents[2]
 
 CEILINGS: Final = {
     "service and api_schemas: lines of Python": 18_000,
-    "fitter without training: lines of Python": 36_000,
-    "fitter/training: lines of Python": 8_000,
+    "fitter without training: lines of Python": 36_220,
+    "fitter/training: lines of Python": 9_890,
     "product modules": 440,
     "operations": 30,
     "schemas": 85,

@@ -9,8 +9,7 @@ from fitter.training.articulation.parts import PART_PARENT, part_index
 from fitter.vocabulary.choices import Gender
 from tests.accuracy.cases import CASES, PEOPLE
 from tests.accuracy.clicks import CLICK_DEVIATION_PX, noisy_clicks, true_points
-from tests.accuracy.landmark_points import packaged_model
-from tests.accuracy.people import load_person, rig_of_people
+from tests.accuracy.people import load_person, packaged_model, rig_of_people
 from tests.accuracy.scene import Arm, Leg, Stance
 from tests.accuracy.staging import Staged, lamp_place, rendering, root_joint, stage
 from tests.accuracy.stances import pose_of

@@ -20,7 +20,7 @@ from fitter.fits.clothing_report import worn_regions
 from fitter.segmentation.coverage import Coverage, bare_forearms
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering, Gender
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 
 PARTS = ("head", "pelvis", "spine", "chest", "left_thigh", "right_thigh")
 SIDE = 20

@@ -9,7 +9,7 @@ from fitter.vocabulary.choices import Cues, Gender
 from tests.accuracy.cases import CASES
 from tests.accuracy.clicks import CLICK_DEVIATION_PX
 from tests.accuracy.files import read_case
-from tests.accuracy.landmark_points import packaged_model
+from tests.accuracy.people import packaged_model
 from tests.accuracy.true_picture import fit_request
 from tests.unit.capture.made_up import FRONT, STATURE_PX, outline
 
