@@ -16,7 +16,6 @@ EIGHT_BITS = (DATA / "eight_bits.heic").read_bytes()
 TEN_BITS = (DATA / "ten_bits.heic").read_bytes()
 SAMPLE_LYING = (DATA / "sample_lying.heic").read_bytes()
 
-DEPTH = b"urn:mpeg:hevc:2015:auxid:2\0"
 ALPHA = b"urn:mpeg:hevc:2015:auxid:1\0"
 
 

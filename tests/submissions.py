@@ -57,18 +57,6 @@ def checked(request: bytes, *images: bytes, max_pixels: int = 10_000_000) -> Ask
     return check_submission(asked, pictures, max_pixels=max_pixels).request
 
 
-def seen_twice(sent: Submission) -> list[tuple[str, tuple[str, bytes | str, str]]]:
-    """The parts of a fit of one picture seen twice, first from the front."""
-    asked = json.loads(sent.request)
-    (said,) = asked["views"]
-    request = json.dumps(asked | {"views": [said | {"view": kind} for kind in ("front", "other")]})
-    return [
-        ("image", sent.files["image"]),
-        ("image", sent.files["image"]),
-        ("request", ("request.json", request, "application/json")),
-    ]
-
-
 def small_submissions(count: int) -> list[Submission]:
     """Real fits that cost little: small pictures of the suite, by silhouette and edges alone."""
     from tests.benchmarks.requests import suite_requests

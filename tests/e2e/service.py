@@ -4,14 +4,15 @@ import contextlib
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import httpx
 
+from tests.integration.service.harness import eventually
+
 REPOSITORY = Path(__file__).parents[2]
-READY_WITHIN_S = 600.0
 FIT_WITHIN_S = 900.0
 ANSWER_WITHIN_S = 180.0
 """Guards against hanging, on machines that are busy: what is there is not waited for."""
@@ -48,26 +49,19 @@ def started_service(
 
 def wait_until_ready(client: httpx.Client) -> None:
     """Wait for the API and its worker."""
-    deadline = time.monotonic() + READY_WITHIN_S
-    while time.monotonic() < deadline:
-        with contextlib.suppress(httpx.TransportError):
-            if client.get("/healthz/ready").status_code == httpx.codes.OK:
-                return
-        time.sleep(0.1)
-    message = "the service did not get ready"
-    raise AssertionError(message)
+    eventually(lambda: _succeeds(client, "GET", "/healthz/ready"), what="API and worker")
 
 
 def wait_for_estimator(client: httpx.Client) -> None:
     """Wait for what answers bodies and initial poses."""
-    deadline = time.monotonic() + READY_WITHIN_S
-    while time.monotonic() < deadline:
-        with contextlib.suppress(httpx.TransportError):
-            if client.post("/v1/bodies", json={"gender": "male"}).status_code == httpx.codes.OK:
-                return
-        time.sleep(0.1)
-    message = "the estimator did not get ready"
-    raise AssertionError(message)
+    person = {"gender": "male"}
+    eventually(lambda: _succeeds(client, "POST", "/v1/bodies", json=person), what="estimator")
+
+
+def _succeeds(client: httpx.Client, method: str, path: str, **sent: Any) -> bool:
+    with contextlib.suppress(httpx.TransportError):
+        return client.request(method, path, **sent).status_code == httpx.codes.OK
+    return False
 
 
 def ended_job(client: httpx.Client, response: httpx.Response) -> dict:
@@ -76,14 +70,12 @@ def ended_job(client: httpx.Client, response: httpx.Response) -> dict:
         return response.json()
     assert response.status_code == httpx.codes.ACCEPTED, response.text
     path = response.headers["Location"]
-    deadline = time.monotonic() + FIT_WITHIN_S
-    while time.monotonic() < deadline:
+
+    def ended() -> dict | None:
         job = client.get(path).raise_for_status().json()
-        if job["state"] not in {"queued", "running"}:
-            return job
-        time.sleep(0.2)
-    message = f"{path} did not end"
-    raise AssertionError(message)
+        return None if job["state"] in {"queued", "running"} else job
+
+    return eventually(ended, within_s=FIT_WITHIN_S, what=f"{path} ended")
 
 
 def fits(client: httpx.Client) -> set[str]:

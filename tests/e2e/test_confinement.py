@@ -5,7 +5,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,11 +15,11 @@ from service.demo_data.sample import load_sample
 from service.process.confinement import NEEDED
 from service.settings import PREFIX
 from tests.e2e.service import FIT_WITHIN_S, started_service, wait_for_estimator
+from tests.integration.service.harness import eventually
 
 REPOSITORY = Path(__file__).parents[2]
 FORK_SERVER = b"multiprocessing.forkserver"
 WORKER = b"-m\0service.compute\0"
-BEGINS_WITHIN_S = 600.0
 
 
 def forked() -> Iterator[Path]:
@@ -107,10 +106,7 @@ def test_no_more_does_a_job_that_runs(service: httpx.Client):
         "request": ("request.json", json.dumps(asked), "application/json"),
     }
     path = service.post("/v1/fits", files=files).raise_for_status().headers["Location"]
-    deadline = time.monotonic() + BEGINS_WITHIN_S
-    while not service.get(path).json()["progress"]:
-        assert time.monotonic() < deadline
-        time.sleep(0.1)
+    eventually(lambda: service.get(path).json()["progress"], what="the fit runs")
     # One of a job before it may wait there for another.
     jobs = [each for each in forked() if name_of(each) == "job"]
     assert jobs

@@ -115,13 +115,6 @@ KINDS = tuple(each.value for each in ProductKind)
 FACTORS = (0, 1, 0.5, 2.5, 3, 6, 99.9, 100, 100.1, -1, 1e-300)
 PARTS = ("head", "left_forearm", "right_thigh", "pelvis", "left_foot", "chest", "tail")
 POSES = ("rest", "standing", "a_pose", "t_pose", "relaxed", "walking", "sitting", "arms_raised")
-CHART_HEADS = (
-    "size,chest_girth,waist_girth_navel",
-    "size;chest_girth_low;chest_girth_high",
-    "size,waist",
-    "size",
-)
-CHART_CELLS = ("94-98", "80-84", "96", "", "98-94", "nan", "1e9", "94–98", "94,5-98", '"', "-", "0")
 
 
 def product_body(chance: random.Random) -> RawRequest:
@@ -138,21 +131,14 @@ def product_body(chance: random.Random) -> RawRequest:
 
 def product_form(chance: random.Random) -> RawRequest:
     """A form with a file, mostly damaged, and now and then of the wrong kind."""
-    document = _document(chance)
-    parts: dict[str, bytes] = {}
-    roll = chance.random()
-    if roll < 0.25:
-        document = {"kind": "size"}
-        chart = chart_table(chance).encode()
-        parts["chart"] = damaged(chart, chance) if chance.random() < 0.3 else chart
-    else:
-        document = {"kind": "animation", "start_s": chance.choice((0, 0, 0.05, 3600, -1))}
-        if chance.random() < 0.3:
-            document["up"] = chance.choice(("y", "z", "-x", "w"))
-        if chance.random() < 0.3:
-            part, name = (chance.choice(("pelvis", "chest", "left_shin", "tail")) for _ in range(2))
-            document["joints"] = {part: chance.choice(("Hips", "LeftKnee", "Chest", name))}
-        parts["bvh"] = motion(chance)
+    document: dict[str, Any] = {"kind": "animation"}
+    document["start_s"] = chance.choice((0, 0, 0.05, 3600, -1))
+    if chance.random() < 0.3:
+        document["up"] = chance.choice(("y", "z", "-x", "w"))
+    if chance.random() < 0.3:
+        part, name = (chance.choice(("pelvis", "chest", "left_shin", "tail")) for _ in range(2))
+        document["joints"] = {part: chance.choice(("Hips", "LeftKnee", "Chest", name))}
+    parts = {"bvh": motion(chance)}
     if chance.random() < 0.15:
         document = _document(chance)
     if chance.random() < 0.1:
@@ -201,24 +187,10 @@ def _document(chance: random.Random) -> dict[str, Any]:
         case "composition":
             return {"kind": kind, "age_years": chance.choice((None, 0, 17.5, 40, 120, 121))}
         case "size":
-            return {
-                "kind": kind,
-                **chance.choice(({"chart_csv": chart_table(chance)},) * 2 + ({},)),
-                "ease": chance.choice(({}, {}, {"chest_girth": 4}, {"waist": 1}, {"weight": 1e9})),
-            }
+            charts = ("size,chest_girth\nM,94-98\n", "size,chest_girth\nM,98-94\n", "size")
+            return {"kind": kind, "chart_csv": chance.choice(charts), "ease": {"chest_girth": 4}}
         case _:
             return {"kind": kind}
-
-
-def chart_table(chance: random.Random) -> str:
-    """A size chart as CSV, sound or not."""
-    head = chance.choice(CHART_HEADS)
-    by = ";" if ";" in head else ","
-    rows = [
-        by.join([chance.choice("SML"), *chance.choices(CHART_CELLS[:4] * 4 + CHART_CELLS, k=2)])
-        for _ in range(chance.choice((0, 1, 2, 3, 3, 3, 201)))
-    ]
-    return "\n".join([head, *rows])
 
 
 def _rotation(chance: random.Random) -> Any:

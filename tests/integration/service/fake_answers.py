@@ -14,23 +14,14 @@ from api_schemas.problems import FieldProblem
 from api_schemas.questions import (
     BodyEstimate,
     ImageSize,
-    InitialPose,
-    InitialPoseRequest,
     PointsProposal,
     PointsRequest,
 )
-from api_schemas.results import BodyResult, CameraResult, Measurement
-from fitter.vocabulary.choices import Facing
-from fitter.vocabulary.outcomes import (
-    FacingSource,
-    FocalLengthSource,
-    LimbFacing,
-)
+from api_schemas.results import Measurement
 from service.compute.questions import (
     BODY,
     CONVERSION,
     FILE,
-    INITIAL_POSE,
     JPEG,
     POINTS,
     QUESTION,
@@ -49,8 +40,8 @@ KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 def body(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
     task = BodyTask.model_validate_json(parts[QUESTION])
-    for name, value in task.request.measurements.items():
-        _obey(name, value)
+    for name in task.request.measurements:
+        _obey(name)
     return answered(
         BodyEstimate(
             gender=task.request.gender,
@@ -73,44 +64,6 @@ def body(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
             body_model="0" * 64,
         ),
         GLB if task.with_glb else b"",
-    )
-
-
-def initial_pose(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
-    asked = InitialPoseRequest.model_validate_json(parts[QUESTION])
-    size = asked.image_size
-    return answered(
-        InitialPose(
-            gender=asked.gender,
-            height_m=asked.height_m or 1.7,
-            camera=CameraResult(
-                focal_length_px=700.0,
-                centre_x=size.width / 2,
-                centre_y=size.height / 2,
-                width=size.width,
-                height=size.height,
-            ),
-            focal_length_source=FocalLengthSource.ASSUMED,
-            body=BodyResult(
-                pose={"pelvis": (0.0, 0.0, 0.0)},
-                translation_m=(0.0, 0.0, 3.0),
-                shape=(0.0, 0.0),
-            ),
-            outline=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
-            points={"nose": (1.0, 1.0)},
-            residual_px=dict.fromkeys(asked.points, 0.5),
-            limbs=(
-                LimbFacing(
-                    limb="left_shin",
-                    facing=Facing.TOWARD,
-                    source=FacingSource.PRIOR,
-                    ambiguous=True,
-                    alternative_nats=1.0,
-                ),
-            ),
-            assumptions=(),
-            warnings=(),
-        )
     )
 
 
@@ -150,10 +103,8 @@ def jpeg(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
     return {FILE: told.encode()}
 
 
-def _obey(name: str, value: object) -> None:
-    if name == "sleep":
-        time.sleep(float(str(value)))
-    elif name == "segfault":
+def _obey(name: str) -> None:
+    if name == "segfault":
         ctypes.string_at(0)
     elif name == "fault":
         message = "a fault in the fake"
@@ -174,7 +125,6 @@ def _obey(name: str, value: object) -> None:
 
 TASKS = {
     BODY: body,
-    INITIAL_POSE: initial_pose,
     POINTS: points,
     CONVERSION: conversion,
     JPEG: jpeg,

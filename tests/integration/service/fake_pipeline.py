@@ -26,8 +26,6 @@ from api_schemas.products.bodies import (
     CaricatureResult,
     PoseOptions,
     PoseResult,
-    TextureOptions,
-    TextureResult,
 )
 from api_schemas.products.documents import CompositionOptions, CompositionResult
 from api_schemas.results import (
@@ -172,15 +170,6 @@ def made_product(
                 shape=(0.0, 1.5 * factor),
             )
             return result, {"body_caricature.glb": b"glTF"}
-        case TextureOptions(colours=colours, size=size):
-            result = TextureResult(
-                colours=colours,
-                size=size,
-                seen_share=0.4,
-                mirrored_share=0.1,
-                scale=1.0,
-            )
-            return result, {"body_textured.glb": b"glTF", "texture.png": b"PNG"}
         case AnimationOptions():
             result = AnimationResult(
                 source=parts.get(CLIP, b"a walk").decode()[:40],

@@ -18,7 +18,7 @@ from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 from tests.readme import block
 
-KEPT = 5
+KEPT = 2
 MAQUETTE = (sys.executable, "-m", "service.cli")
 KEYS = {"authentication": "keys"}
 
@@ -105,7 +105,7 @@ def test_a_dump_and_a_copied_bucket_bring_back_keys_fits_and_waiting_jobs(
         service.client.headers.update(key)
         paths = ended_fits(service)
         kept = contents(service, paths)
-        waiting = [service.submit({"gate": str(gate), "number": 10 + at}) for at in range(3)]
+        waiting = [service.submit({"gate": str(gate), "number": 10 + at}) for at in range(2)]
         eventually(lambda: "running" in map(service.state, waiting), what="a fit is running")
         run_commands("backup-postgres", tmp_path, MAQUETTE_DATABASE_URL=before)
         copy_objects(storage, to=bucket)

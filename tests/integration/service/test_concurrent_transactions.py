@@ -42,7 +42,7 @@ def database(engine: JobEngine, machine: Machine) -> Iterator[sa.Engine]:
 
 
 @contextmanager
-def interfered_with(read: str, act: Callable[[], Any], *, reading: int = 1) -> Iterator[list[Any]]:
+def interfered_with(read: str, act: Callable[[], Any]) -> Iterator[list[Any]]:
     """Have another thread act as soon as a statement that holds ``read`` was executed.
 
     It is given time to get through; where it is made to wait, it goes on when it may. Yields what
@@ -50,14 +50,9 @@ def interfered_with(read: str, act: Callable[[], Any], *, reading: int = 1) -> I
     """
     done: list[Any] = []
     thread = threading.Thread(target=lambda: done.append(act()))
-    readings = 0
 
     def after(_: object, __: object, statement: str, *___: object) -> None:
-        nonlocal readings
-        if threading.current_thread() is thread or read not in statement:
-            return
-        readings += 1
-        if readings == reading:
+        if thread.ident is None and read in statement:
             thread.start()
             thread.join(TIME_TO_INTERFERE_S)
 

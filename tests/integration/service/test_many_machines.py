@@ -23,7 +23,7 @@ from tests.integration.service.harness import (
 from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
-JOBS = 8
+JOBS = 5
 
 RENAMED = ("unshare", "--uts", "--map-root-user", "sh", "-c", 'hostname "$0" && exec "$@"')
 """Runs a command with a host name of its own: to the others it is on another machine."""

@@ -26,7 +26,7 @@ from service.jobs.storage_identity import STORAGE_FACT, open_blob_store, take_st
 from service.jobs.tables import FACTS
 from service.settings import Settings
 from service.startup import run_command
-from tests.integration.service.harness import Machine, running_service
+from tests.integration.service.harness import Machine
 from tests.integration.service.test_refused_start import SERVE, WORKER, assert_refused, run
 from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
 
@@ -267,24 +267,20 @@ def test_of_several_that_start_at_once_with_storages_of_their_own_one_is_taken(
 
 
 def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):
-    with running_service(Machine(tmp_path), api_only=True):
-        pass
+    settings = Settings(data_dir=tmp_path)
+    preflight(settings)
     shutil.rmtree(tmp_path / "blobs")
     assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
-    preflight(Settings(data_dir=tmp_path), adopt_storage=True)
-    with running_service(Machine(tmp_path), api_only=True):
-        pass
+    preflight(settings, adopt_storage=True)
+    preflight(settings)
 
 
 @pytest.mark.usefixtures("_credentials")
 def test_another_bucket_or_prefix_is_refused(storage: ObjectStorage, tmp_path: Path):
-    ours = storage.settings
-    theirs = ours | {"blob_url": f"{ours['blob_url']}-of-others"}
-    with running_service(Machine(tmp_path, settings=ours), api_only=True):
-        pass
-    for command in (SERVE, WORKER):
-        done = run(command, tmp_path, **theirs)
-        assert_refused(done, naming=f"MAQUETTE_BLOB_URL={theirs['blob_url']}:")
+    theirs = storage.settings | {"blob_url": f"{storage.blob_url}-of-others"}
+    preflight(Settings(data_dir=tmp_path, blob_url=storage.blob_url))
+    done = run(WORKER, tmp_path, **theirs)
+    assert_refused(done, naming=f"MAQUETTE_BLOB_URL={theirs['blob_url']}:")
 
 
 @pytest.mark.usefixtures("_credentials")

@@ -13,9 +13,3 @@ RESULT: dict[str, Any] = _ANSWERS["get_fit_result"]["200"]["sample"]
 def fit_result(**changes: object) -> FitResult:
     """The example with some fields of its JSON changed."""
     return FitResult.model_validate_json(json.dumps(RESULT | changes))
-
-
-def measurement(name: str, **changes: object) -> dict[str, object]:
-    """A measurement of the result's JSON."""
-    example: dict[str, object] = RESULT["measurements"][-1]
-    return example | {"name": name} | changes

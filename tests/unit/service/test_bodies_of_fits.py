@@ -64,15 +64,6 @@ def test_the_picture_is_on_the_body_in_new_poses(asked, files):
             levels = np.asarray(texture, dtype=int)
         # The whole picture has this one level; but for where JPEG blurs the islands' black ends.
         assert np.percentile(np.abs(levels - 90)[levels > 60], 99) < 4
-        owners = glb.attribute("_VERTEX").ravel().astype(int)
-        assert np.array_equal(
-            owners[: len(model.mean_vertices)], np.arange(len(model.mean_vertices))
-        )
-        corners = glb.accessor(glb.document["meshes"][0]["primitives"][0]["indices"])
-        assert np.array_equal(owners[corners.reshape(-1, 3)], model.triangles)
-        texels = glb.attribute("TEXCOORD_0")[corners.reshape(-1, 3)]
-        asked_texels = model.uv[model.uv_triangles] * [1.0, -1.0] + [0.0, 1.0]
-        assert np.abs(texels - asked_texels).max() < 1e-6
         counts = {
             glb.document["accessors"][accessor]["count"]
             for attributes in (glb.attributes, *_targets(glb))

@@ -24,7 +24,6 @@ from service.process.data_folder import Disk
 LIMIT_S = 0.2
 FOREVER_S = 600.0
 PIECE = 1000
-MOST_BYTES = 10**6
 OVERDUE_S = 2 * LIMIT_S
 
 
