@@ -20,8 +20,7 @@ from tests.illustrations.measuring_sheet import WITHOUT_EXAMPLE
 def test_axe_finds_nothing_serious_from_start_to_result(
     browser: Browser, service: httpx.Client, axe: str, scheme: str, finished_fit: str
 ):
-    settled = {"color_scheme": scheme}
-    with Visitor.at(browser, str(service.base_url), **settled) as visitor:
+    with Visitor.at(browser, str(service.base_url), color_scheme=scheme) as visitor:
         page = visitor.page
         expect(page.locator("html")).to_have_attribute("data-theme", scheme)
         assert serious_findings(page, axe) == []

@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { Fit, FitRequest, FitResult, InitialPose, InitialPoseRequest, PointsProposal, PointsRequest, Product, ProductRequest, UploadedImage } from "./types";
+import type { BodyEstimate, BodyRequest, Fit, FitRequest, FitResult, InitialPose, InitialPoseRequest, PointsProposal, PointsRequest, Product, ProductRequest, UploadedImage } from "./types";
 
 /** What the root of the service answers to programs (api_schemas/service.py); the API document describes `/v1` alone. */
 interface ServiceIndex {
@@ -23,6 +23,15 @@ export function initialPose(asked: InitialPoseRequest, signal: AbortSignal): Pro
 
 export function proposePoints(asked: PointsRequest, signal: AbortSignal): Promise<PointsProposal> {
   return requestJson("/v1/points", { ...jsonBody(asked), signal });
+}
+
+export function estimateBody(asked: BodyRequest, signal: AbortSignal): Promise<BodyEstimate> {
+  return requestJson("/v1/bodies", { ...jsonBody(asked), signal });
+}
+
+/** The same as a GLB. */
+export async function estimateMesh(asked: BodyRequest, signal: AbortSignal): Promise<ArrayBuffer> {
+  return (await request("/v1/bodies?format=glb", { ...jsonBody(asked), signal })).arrayBuffer();
 }
 
 /** Every view has the id of its picture. */

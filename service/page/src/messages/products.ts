@@ -38,7 +38,7 @@ export const products = {
     none: "Probably no size of this chart fits.",
     noneFits: "None fits",
   },
-  motion: { play: "Play", stop: "Stop", moment: "Moment of the motion", speed: "Speed", times: (speed: string) => `${speed} ×` },
+  motion: { play: "Play", stop: "Pause", moment: "Moment of the motion", speed: "Speed", times: (speed: string) => `${speed} ×` },
   animation: {
     turned: "The body in motion",
     another: "Another BVH file",

@@ -51,6 +51,11 @@ export const result = {
   allMeasurements: "All measurements",
   figures: { chest_girth: "Chest", waist_girth_smallest: "Waist", hip_girth: "Hip", weight: "Weight" },
   imperial: "in, lb",
+  whatIf: {
+    title: "Try another weight or waist",
+    would: (figures: string) => `Most probably, then: ${figures}.`,
+    back: "As measured",
+  },
   more: (count: number) => plural(count, { one: "One more measurement", other: `${count} more measurements` }),
   note: "Of the upright body and its right arm and leg. Choose one to see where it is taken. This is not a medical device.",
   intervals: (share: string) => `Beside each value stands its range: in close-fitting clothes the true value lies in it ${share} of the time.`,

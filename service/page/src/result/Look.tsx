@@ -17,6 +17,7 @@ import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import type { Snapshot } from "../viewer/DerivedCanvas";
+import type { GlbBody } from "../viewer/glb";
 import { SideView } from "../viewer/SideView";
 import { SURFACES } from "../viewer/surface";
 import type { Surface } from "../viewer/surface";
@@ -25,6 +26,7 @@ import type { Side } from "../viewer/Turntable";
 import { Coloured } from "./Coloured";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
+import { WhatIfBar } from "./WhatIfBar";
 import { nameOfView, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
@@ -70,6 +72,7 @@ export function Look(props: Props) {
   const [failed, setFailed] = useState(false);
   const [isOut, setOut] = useState(false);
   const [from, setFrom] = useState<{ readonly side: Side } | null>(null);
+  const [other, setOther] = useState<GlbBody | null>(null);
   const ends = useSignal<readonly TapeEnds[]>([]);
   const surfaces: readonly Surface[] = files.posed.light === null ? ["clay"] : SURFACES;
   const over = placement === "picture";
@@ -126,6 +129,7 @@ export function Look(props: Props) {
               opacity={over ? opacity : 1}
               from={from}
               onTapes={(found) => (ends.value = found)}
+              other={other}
               flips={flips}
               limb={pointedAt}
               onPointLimb={turning.point}
@@ -164,6 +168,7 @@ export function Look(props: Props) {
         )}
         {!over && <p class="look-hint fine">{look.hint}</p>}
       </div>
+      {shown === "canonical" && files.canonical && result.measurements.length > 0 && <WhatIfBar result={result} upright={files.canonical} onBody={setOther} />}
       {!isSkin && (
         <details class="look-experts">
           <summary>{look.experts}</summary>

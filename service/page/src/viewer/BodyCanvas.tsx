@@ -21,6 +21,8 @@ interface Props {
   readonly from: { readonly side: Side } | null;
   /** Where the tapes lie on the canvas. */
   readonly onTapes: (ends: readonly TapeEnds[]) => void;
+  /** The upright body as it would be; null as it is. */
+  readonly other: GlbBody | null;
   /** Limbs that are seen turned the other way. */
   readonly flips: Flips;
   /** The limb that stands out. */
@@ -34,7 +36,7 @@ interface Props {
 const CLICK_WITHIN_PX = 5;
 
 export function BodyCanvas(props: Props) {
-  const { posed, canonical, tapes, marked, placement, surface, opacity, from, onTapes, flips, limb, onPointLimb, onFlip, onFailure } = props;
+  const { posed, canonical, tapes, marked, placement, surface, opacity, from, onTapes, other, flips, limb, onPointLimb, onFlip, onFailure } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<BodyScene | null>(null);
   const wanted = useRef({ placement, surface, marked, flips, limb });
@@ -80,6 +82,7 @@ export function BodyCanvas(props: Props) {
   useEffect(() => scene.current?.place(placement), [placement]);
   useEffect(() => scene.current?.surface(surface), [surface]);
   useEffect(() => scene.current?.mark(marked), [marked]);
+  useEffect(() => scene.current?.shapeUpright(other), [other]);
   useEffect(() => scene.current?.turnLimbs(flips), [flips]);
   useEffect(() => scene.current?.markLimb(limb), [limb]);
   useEffect(() => {

@@ -1,5 +1,6 @@
 // The body in WebGL: over its picture by the fitted camera, or turned freely.
 import { Scene, Vector3, WebGLRenderer } from "three";
+import type { BufferAttribute } from "three";
 import { NO_FLIPS } from "../flip/flips";
 import type { Flips, TurnedLimb } from "../flip/flips";
 import { facingOf } from "./facing";
@@ -40,6 +41,7 @@ export class BodyScene {
   private limbTools: LimbTools | null = null;
   private flips: Flips = NO_FLIPS;
   private pointedAt: TurnedLimb | null = null;
+  private isOther = false;
   private scheduled = 0;
   /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
   private isSized = false;
@@ -47,7 +49,7 @@ export class BodyScene {
   constructor(
     canvas: HTMLCanvasElement,
     private readonly body: GlbBody,
-    upright: GlbBody | null,
+    private readonly upright: GlbBody | null,
     tapes: TapeLines,
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
@@ -95,6 +97,21 @@ export class BodyScene {
   surface(kind: Surface): void {
     this.kind = kind;
     for (const each of this.parts()) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
+    this.draw();
+  }
+
+  /** The upright body in another shape of the same mesh, which no tape was laid about; null for its own. */
+  shapeUpright(other: GlbBody | null): void {
+    const shape = other ?? this.upright;
+    if (!this.canonical || !shape) return;
+    const { geometry } = this.canonical.mesh;
+    for (const [name, values] of [["position", shape.positions], ["normal", shape.normals]] as const) {
+      const attribute = geometry.getAttribute(name) as BufferAttribute;
+      attribute.array = values;
+      attribute.needsUpdate = true;
+    }
+    this.isOther = other !== null;
+    this.reveal();
     this.draw();
   }
 
@@ -171,7 +188,7 @@ export class BodyScene {
   private reveal(): void {
     const shown = this.shown();
     for (const each of this.parts()) each.mesh.visible = each === shown;
-    this.tapes.group.visible = shown === this.canonical;
+    this.tapes.group.visible = shown === this.canonical && !this.isOther;
     // Where the camera's tilt is not known, the posed body does not stand on anything.
     this.floor.mesh.visible = this.placement === "canonical" || (this.placement === "turned" && this.body.upright !== null);
   }
