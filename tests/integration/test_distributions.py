@@ -102,10 +102,6 @@ def imported(wheel: Path) -> set[str]:
     return names
 
 
-def test_each_package_says_that_it_is_typed(files: set[str]):
-    assert {f"{package}/py.typed" for package in PACKAGES} <= files
-
-
 def test_the_wheel_weighs_little(wheel: Path):
     assert wheel.stat().st_size <= MAX_WHEEL_BYTES
 

@@ -22,6 +22,7 @@ from tests.integration.service.harness import (
     said_of_view,
 )
 from tests.integration.service.test_bad_input import checked
+from tests.integration.service.test_formats import wait_for_estimator
 
 
 def upload(service: Service, content: bytes):
@@ -54,6 +55,9 @@ def test_an_upload_is_named_by_its_content_and_found_again(service: Service):
     assert UploadedImage.model_validate_json(found.content) == image
     picture = service.client.get(f"{answer.headers['Location']}/picture")
     assert (picture.content, picture.headers["Vary"]) == (content, "Accept")
+    wait_for_estimator(service)
+    jpeg = service.client.get(str(picture.url), headers={"Accept": "image/jpeg"})
+    assert jpeg.headers["content-type"] == "image/jpeg"
     assert found.headers["Cache-Control"] == picture.headers["Cache-Control"] == "no-store"
 
 

@@ -29,9 +29,7 @@ def test_a_misspelt_filter_is_refused_by_its_name(service: Service):
     [
         ("GET", "/v1/body-models"),
         ("GET", f"/v1/images/{'0' * 64}"),
-        ("POST", "/v1/fits"),
         ("POST", "/v1/points"),
-        ("DELETE", f"/v1/images/{'0' * 64}"),
     ],
 )
 def test_where_there_are_no_parameters_none_is_taken(service: Service, method, path):

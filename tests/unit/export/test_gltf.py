@@ -206,6 +206,8 @@ def test_the_canonical_body_stands_on_the_floor(result, model):
     assert p[:, 1].min() == 0.0
     offset = p - result.canonical_vertices
     np.testing.assert_allclose(offset - offset[0], 0.0, atol=1e-6)
+    albedo = result.person.reflectance.albedo
+    np.testing.assert_allclose(glb.attribute("_ALBEDO"), albedo, rtol=1e-6)
     assert "cameras" not in glb.document
 
 

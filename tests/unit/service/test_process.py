@@ -1,6 +1,5 @@
 """Processes: work folders, connections, logs, and the signal that ends them."""
 
-import asyncio
 import contextlib
 import fcntl
 import json
@@ -157,26 +156,6 @@ def test_too_many_connections_are_turned_away_until_others_close_and_told_once(l
     assert [record.getMessage() for record in caplog.records] == [
         "5 connections are open: more are turned away."
     ]
-
-
-async def answer(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    writer.write(await reader.readline())
-    writer.close()
-    await writer.wait_closed()
-
-
-def test_asyncio_serves_one_connection_after_the_other(listener, caplog):
-    async def course() -> None:
-        async with await asyncio.start_server(answer, sock=listener):
-            for _ in range(4 * MOST):
-                reader, writer = await asyncio.open_connection(*listener.getsockname())
-                writer.write(b"hello\n")
-                assert await reader.read() == b"hello\n"
-                writer.close()
-                await writer.wait_closed()
-
-    asyncio.run(course())
-    assert not caplog.records
 
 
 @pytest.mark.parametrize(
