@@ -174,7 +174,7 @@ def test_the_last_click_is_not_told_on_the_next_screen(visitor: Visitor, finishe
     visitor.wait_for_result()
     expect(region).to_be_empty()
     page.get_by_role("link", name="New").click()
-    page.get_by_role("link", name="Go on with sample.jpg").click()
+    page.get_by_role("link", name="Continue with sample.jpg").click()
     visitor.wait_for_stage()
     expect(region).to_be_empty()
 

@@ -6,7 +6,7 @@ export const start = {
   figures: "All figures",
   choose: "Choose a picture",
   take: "Take or choose a picture",
-  goOn: { with: (picture: string) => `Go on with ${picture}`, discard: "Discard it" },
+  goOn: { with: (picture: string) => `Continue with ${picture}`, discard: "Discard" },
   ways: "One photo in any pose will do. Two of a person who stands, from the front and from the side, measure best.",
   otherWays: "You can also drop a picture here, or paste one.",
   kept: {
