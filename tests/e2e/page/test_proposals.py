@@ -94,10 +94,9 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
         visitor.wait_for_result()
         visitor.wait_until_drawn(placement="canonical")
         expect(page.get_by_role("row", name=re.compile("^Height"))).to_contain_text("168")
+        page.locator(".more-notes > summary").click()
         # Counted, not named.
-        expect(
-            page.locator(".panel .note", has_text="21 points were found automatically")
-        ).to_be_visible()
+        expect(page.get_by_text("21 points were found automatically")).to_be_visible()
 
 
 def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_again(
