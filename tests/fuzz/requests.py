@@ -138,14 +138,6 @@ def proposed_picture(chance: random.Random) -> RawRequest:
     )
 
 
-def checked_picture(chance: random.Random) -> RawRequest:
-    """A damaged picture to check, of the same processes."""
-    request = json.dumps({"view": "front", "focal_length_35mm": 26.0}).encode()
-    return head_and_body(
-        "/v1/points", MULTIPART, multipart({"image": picture(chance), "request": request})
-    )
-
-
 def json_body(chance: random.Random) -> RawRequest:
     """A damaged JSON document: its values, its nesting or its text."""
     path, document = chance.choice(DOCUMENTS)
@@ -188,7 +180,6 @@ KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "picture, uploaded": (uploaded_picture, 0.15),
     "picture, fitted": (fitted_picture, 0.1),
     "picture, proposed": (proposed_picture, 0.06),
-    "picture, checked": (checked_picture, 0.04),
     "JSON body": (json_body, 0.2),
     "multipart body": (multipart_body, 0.13),
     "headers": (headers, 0.1),

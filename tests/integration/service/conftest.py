@@ -30,6 +30,15 @@ def fresh_machine(database: str, folder: Path) -> Iterator[Machine]:
         yield Machine(folder, database_url=url)
 
 
+@pytest.fixture(autouse=True)
+def _logs_go_where_they_went() -> Iterator[None]:
+    """A command run in this process has DBOS log to what its test reads, and then closes."""
+    dbos = logging.getLogger("dbos")
+    before = dbos.handlers, dbos.propagate, dbos.filters
+    yield
+    dbos.handlers, dbos.propagate, dbos.filters = before
+
+
 @pytest.fixture(params=DATABASES)
 def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]:
     """A fresh machine, once with the embedded database and once with Postgres."""

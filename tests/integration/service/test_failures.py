@@ -29,15 +29,6 @@ def problem_of(service: Service, script: dict[str, object]) -> dict[str, object]
     return job["problem"]
 
 
-def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: Service):
-    problem = problem_of(service, {"unusable": True})
-    assert problem["type"] == "/problems/unusable-input"
-    assert problem["field"] == "views.0.image"
-    assert problem["code"] == "image-truncated"
-    assert problem["detail"] == "views.0.image: The picture ends too early."
-    assert problem["remedy"] == "Send the whole file."
-
-
 def test_a_fault_of_ours_is_told_without_its_trace(service: Service):
     problem = problem_of(service, {"fault": True})
     assert problem["type"] == "/problems/fit-failed"

@@ -29,17 +29,6 @@ def test_the_named_poses_of_the_wire_are_the_fitter_s():
     assert {pose.value for pose in NamedPose} == {REST, *NAMED_POSES}
 
 
-def test_a_named_pose_departs_where_it_is_told_to():
-    standing = made(kind="pose", pose="standing").result.model_dump()["pose"]
-    turned = made(kind="pose", pose="standing", rotations={"head": [0.0, 0.3, 0.0]})
-    changed = {
-        part: rotation
-        for part, rotation in turned.result.model_dump()["pose"].items()
-        if rotation != pytest.approx(standing[part], abs=1e-9)
-    }
-    assert changed == {"head": pytest.approx((0.0, 0.3, 0.0))}
-
-
 @pytest.mark.parametrize(
     ("asked", "files"),
     [

@@ -9,7 +9,7 @@ import pytest
 from fastapi import FastAPI, Request
 
 from api_schemas.problems import Problem
-from api_schemas.questions import BodyRequest, PointsRequest
+from api_schemas.questions import BodyRequest
 from fitter.vocabulary.choices import Gender
 from service.api.context import Parts as SharedParts
 from service.api.context import _context as context_of
@@ -19,14 +19,13 @@ from service.api.observation import ServiceMetrics
 from service.api.problems import ProblemError
 from service.compute.lanes import FAILED, TIMED_OUT, UNAVAILABLE
 from service.compute.messages import DoneMessage, ProblemMessage, Received, TaskMessage
-from service.compute.questions import BODY, FILE, POINTS, QUESTION, BodyTask
+from service.compute.questions import BODY, FILE, QUESTION, BodyTask
 from service.compute.tasks import Parts
 from service.jobs.blobs import WatchedBlobs
 from service.jobs.engine import JobEngine
 from service.process.data_folder import Disk
 from service.settings import Settings
 from service.submissions.image_header import ImageHeader
-from service.submissions.submission import no_detector
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
 
@@ -64,14 +63,6 @@ def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
             asyncio.run(question)
         assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
         assert ("Retry-After" in caught.value.headers) is retry
-
-
-def test_a_detector_that_is_not_there_is_told_with_what_to_install():
-    with pytest.raises(ProblemError) as caught:
-        asyncio.run(troubled(no_detector()).answer(POINTS, PointsRequest(), b"a picture"))
-    told = caught.value.problem
-    assert (told.status, told.code) == (404, "detector-not-installed")
-    assert "pip install" in told.remedy
 
 
 def test_a_file_goes_along_and_comes_back():

@@ -87,18 +87,6 @@ def test_who_sends_the_next_job_after_the_end_of_the_last_gets_every_other_turn(
         assert queue.begun[-1][0] == ALICE
 
 
-def test_who_comes_while_nothing_runs_waits_for_nothing_that_came_later():
-    queue = Played()
-    queue.submit(ALICE)
-    queue.submit(BOB)
-    queue.submit(CAROL)
-    assert queue.run_out() == [ALICE, BOB, CAROL]
-
-
-def test_the_first_job_has_the_first_turn():
-    assert next_turn(begun=None, waiting=None, own=None, others=0) == 1
-
-
 STEPS = st.lists(st.one_of(st.sampled_from("abcde"), st.none()), max_size=120)
 """Somebody submits a job, or, where it is None, a running one ends."""
 
