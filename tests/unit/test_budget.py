@@ -27,7 +27,7 @@ CEILINGS: Final = {
     "page: lines of TypeScript and CSS": 15_000,
     "documentation: words": 32_900,
     "run-time dependencies": 24,
-    "tests: lines of Python": 53_920,
+    "tests: lines of Python": 53_860,
     "tests: modules": 397,
 }
 
