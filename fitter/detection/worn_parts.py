@@ -84,7 +84,7 @@ class Hypercolumns:
     colours
         (SIZE, SIZE, 40) as :func:`colour_maps`.
     places
-        (SIZE, SIZE, 48) as :func:`place_maps`.
+        (SIZE / 2, SIZE / 2, 48) as :func:`place_maps`.
     """
 
     activations: Mapping[int, Maps]
@@ -167,7 +167,7 @@ def colour_maps(half: UInt8[np.ndarray, "s s 3"], landmarks: Float[np.ndarray, "
 
 def place_maps(landmarks: Float[np.ndarray, "39 5"]) -> Float32[np.ndarray, "s s 48"]:
     """Nearness to landmarks, within either reach, and where in the crop."""
-    middles = np.arange(SIZE, dtype=np.float32) + 0.5
+    middles = np.arange(1.0, SIZE, 2.0, dtype=np.float32)
     away = [(middles[:, None] - landmarks[PLACED, axis].astype(np.float32)) ** 2 for axis in (0, 1)]
     near = [[np.exp(-0.5 * each / reach**2) for each in away] for reach in NEAR_PX]
     beside = [down[:, None] * across[None] for across, down in near]

@@ -21,8 +21,8 @@ FIRST: Final = 1_000_000
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m fitter.training.dressed", description=__doc__)
-    parser.add_argument("--pictures", type=int, default=1000)
-    parser.add_argument("--epochs", type=int, default=4)
+    parser.add_argument("--pictures", type=int, default=1200)
+    parser.add_argument("--epochs", type=int, default=2)
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--output", type=Path, default=HEAD_FILE)
     parser.add_argument("--sheet", type=Path, help="draw 24 pictures and their labels, and end")

@@ -42,12 +42,12 @@ class Legs(NamedTuple):
 
 
 TROUSERS: Final = {
-    "slim": Legs(0.16, 0.006),
-    "straight": Legs(0.24, 0.012, (0.01, 0.03)),
-    "wide": Legs(0.15, 0.015, (0.025, 0.075)),
-    "shorts": Legs(0.31, 0.01, (0.01, 0.05)),
+    "slim": Legs(0.13, 0.006),
+    "straight": Legs(0.2, 0.012, (0.01, 0.03)),
+    "wide": Legs(0.12, 0.015, (0.025, 0.075)),
+    "shorts": Legs(0.42, 0.01, (0.01, 0.05)),
     "leggings": Legs(0.07, 0.003),
-    "joggers": Legs(0.07, 0.015, (0.02, 0.045)),
+    "joggers": Legs(0.06, 0.015, (0.02, 0.045)),
 }
 
 NECKLINES: Final = {"crew": 0.42, "scoop": 0.2, "v": 0.18, "boat": 0.08, "high": 0.12}

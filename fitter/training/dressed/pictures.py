@@ -29,7 +29,7 @@ FOLD_M: Final = 0.012
 CROP_SHARE: Final = (0.46, 0.58)
 """Half a crop's side over 1.25 statures."""
 
-FACES, BEHIND = (0.5, 12.0), (0.2, 14.0)
+FACES, BEHIND = (0.5, 12.0), (0.26, 14.0)
 """Shares and spreads (degrees) of people seen from the front and from behind."""
 
 OCCLUSION: Final = ((2.5, 9.0), (7.0, 5.0))

@@ -26,7 +26,7 @@ LOOKS: Final = 2
 """How often a picture is seen, each time moved, turned and toned anew, and but for the first in
 other colours."""
 
-RECOLOURED: Final = 0.7
+RECOLOURED: Final = 0.5
 LEAST_PIXELS: Final = 30
 """Share of cloths that get another colour, if they are seen in so many pixels."""
 
