@@ -321,17 +321,6 @@ class Visitor:
         message = f"less than {share:.2%} of the pixels changed in {LOOKS} looks"
         raise AssertionError(message)
 
-    def wait_until_still(self, what: Locator) -> np.ndarray:
-        """Wait until an element looks the same twice running, and return what is seen."""
-        before = self.pixels(what)
-        for _ in range(LOOKS):
-            now = self.pixels(what)
-            if np.array_equal(now, before):
-                return now
-            before = now
-        message = f"it looked otherwise in each of {LOOKS} looks"
-        raise AssertionError(message)
-
     def choose(self, name: str) -> None:
         self.page.get_by_role("radio", name=name, exact=True).check()
 
