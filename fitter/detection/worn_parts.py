@@ -70,7 +70,7 @@ DARKEST: Final = 0.01
 LOG_LIGHT: Final = np.log((np.arange(256) / 255.0) ** 2.2 + DARKEST).astype(np.float32)
 """By display value."""
 
-Maps = Float32[np.ndarray, "s s c"]
+Maps = Float32[np.ndarray, "_ _ _"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -105,8 +105,8 @@ class Hypercolumns:
 class WornHead:
     """Weights (in, out) and biases of the perceptron's three layers."""
 
-    weights: tuple[Float32[np.ndarray, "i o"], ...]
-    biases: tuple[Float32[np.ndarray, " o"], ...]
+    weights: tuple[Float32[np.ndarray, "_ _"], ...]
+    biases: tuple[Float32[np.ndarray, " _"], ...]
 
     def probabilities(self, seen: Hypercolumns) -> Float32[np.ndarray, "t t 6"]:
         """Shares of the six parts, a pixel for each four of the crop."""

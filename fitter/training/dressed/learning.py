@@ -113,7 +113,10 @@ def _head(
     # Rounded as it is stored, so that the bias takes back what rounding adds on average.
     first = (layers[0] / deviation[:, None]).astype(np.float16).astype(np.float32)
     biases = [layers[1] - mean @ first, *layers[3:-1:2], layers[-1] + nats]
-    return WornHead(weights=(first, *layers[2::2]), biases=tuple(biases))
+    return WornHead(
+        weights=(first, *layers[2::2]),
+        biases=tuple(each.astype(np.float32) for each in biases),
+    )
 
 
 def write_head(file: Path, head: WornHead) -> None:
