@@ -30,12 +30,15 @@ export function fitted(stage: Size, picture: Size): View {
 const FREE = 0.16;
 /** A gain of less is not worth that the picture is no longer whole. */
 const LEAST_GAIN = 1.4;
+/** Who covers more of the picture is seen well enough in all of it, however narrow the stage. */
+const LARGE_SHARE = 0.4;
 
 /** As large as the stage allows what is to be looked at: left, top, right and bottom in the picture. */
 export function framed(stage: Size, picture: Size, box: readonly [number, number, number, number] | null): View {
   const whole = fitted(stage, picture);
   if (!box) return whole;
   const [left, top, right, bottom] = box;
+  if ((right - left) * (bottom - top) > LARGE_SHARE * picture.width * picture.height) return whole;
   const scale = Math.min(stage.width / (right - left), stage.height / (bottom - top)) / (1 + FREE);
   if (scale < LEAST_GAIN * whole.scale) return whole;
   return kept({ scale, x: (stage.width - scale * (left + right)) / 2, y: (stage.height - scale * (top + bottom)) / 2 }, stage, picture);
