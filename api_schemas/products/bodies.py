@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, WithJsonSchema
 from api_schemas.base import WholeNumber, refusal
 from api_schemas.products.base import BodyColours, ProductOptions, ProductResult
 from api_schemas.results import Vector
+from fitter.vocabulary.choices import BoneNames
 from fitter.vocabulary.remarks import Remark
 
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
@@ -125,11 +126,13 @@ UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 
 
 class NamedMotion(StrEnum):
-    """Motions by name; all but ``walk`` stay on one spot."""
+    """Motions by name, and two poses in which a body for other programs stands still."""
 
     WALK = "walk"
     WAVE = "wave"
     SQUAT = "squat"
+    A_POSE = "a_pose"
+    T_POSE = "t_pose"
 
 
 class AnimationOptions(ProductOptions):
@@ -137,7 +140,22 @@ class AnimationOptions(ProductOptions):
 
     kind: Literal["animation"]
     motion: NamedMotion = Field(
-        default=NamedMotion.WALK, description="What the body does; not read beside a BVH file."
+        default=NamedMotion.WALK,
+        description=(
+            "What the body does; not read beside a BVH file. `a_pose` and `t_pose` give a rig: one "
+            "GLB with bones and skin in that pose, to be moved by another program."
+        ),
+    )
+    bones: BoneNames = Field(
+        default=BoneNames.MAQUETTE,
+        description=(
+            "Whose names the bones have, in `body_skinned.glb` and `motion.bvh`. In the T-pose no "
+            "bone is turned, its axes are the body frame's."
+        ),
+    )
+    in_place: bool = Field(
+        default=True,
+        description="Whether the body stays on its spot; else it goes its way along the ground.",
     )
     colours: BodyColours = Field(
         default=BodyColours.PICTURE,
@@ -192,11 +210,13 @@ class AnimationOptions(ProductOptions):
 
 
 class AnimationResult(ProductResult):
-    """``body_animated.glb``, ``body_skinned.glb`` and a film, ``animation.webp``.
+    """``body_animated.glb``, ``body_skinned.glb``, ``motion.bvh`` and a film, ``animation.webp``.
 
     The first holds the bodies of SCAPE as morph targets, the second bones and a skin that follows
-    them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's. Their
-    texture lies beside them for OBJ too, as ``texture.jpg``.
+    them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's. The
+    third has the motion of the bones in centimetres. Textures lie beside for OBJ too, as
+    ``texture.jpg``. Of a rig there is the second alone; its errors are those over the poses
+    that have names.
     """
 
     kind: Literal["animation"] = "animation"
@@ -221,7 +241,9 @@ class AnimationResult(ProductResult):
     sliding_mm: float = Field(
         description="How far soles on the ground slide from frame to frame, on average."
     )
-    travelled_m: float = Field(description="From the first place to the last, along the ground.")
+    travelled_m: float = Field(
+        description="From the first place to the last along the ground, in place or not."
+    )
     warnings: tuple[Remark, ...]
 
 

@@ -8,20 +8,22 @@ motions, v = Σ_b w_b M_b v_bind, without the flesh that follows a pose. Two thi
 difference small: the body is bound in that pose of the motion that is most like all others, and the
 bones go where the joints of the exact bodies are, which a raised shoulder takes along. Over a walk
 0.9 mm are left on average and 13 in the worst vertex, over a dance 6 and 57; every skin's own are
-measured.
+measured. Bones are those of :mod:`fitter.applications.skeleton`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Float32, Integer
 
-from fitter.applications.motion import MovingBody, unturned
+from fitter.applications.motion import MovingBody
 from fitter.applications.principal_frames import PrincipalFrames, with_rest
+from fitter.applications.skeleton import Skeleton
 from fitter.arrays import Vertices
-from fitter.body.model import BodyModel, global_rotations, regress
+from fitter.body.model import BodyModel
 from fitter.export.glb import BinaryChunk, Frame, Node, Target, gltf_document, pack_glb
 from fitter.export.gltf_mesh import BODY_NODE, BodyTexture, add_body_mesh, unit_normals
+from fitter.numerics.rotations import rotation_vectors
 from fitter.parameters import Reflectance
 
 
@@ -31,35 +33,54 @@ class Skin:
 
     Attributes
     ----------
+    skeleton
+        Its bones.
     frame
         In whose pose it is bound.
     bones
-        (t, p, 4, 4) where the bones are in every frame, root joint at the origin, pelvis not
-        turned, metres.
+        (t, b, 4, 4) where the bones are in every frame, of a rig in the first alone; root joint at
+        the origin, pelvis not turned, metres.
     vertices
         (m, 3) the body in that pose, root joint at the origin, pelvis not turned, metres.
     inverse_bind
-        (p, 4, 4) from there to the bones' own axes.
+        (b, 4, 4) from there to the bones' own axes.
     parts, weights
         (m, 4) the bones a vertex follows, and how much; bone 0 where nothing.
     mean_error_m, largest_error_m
         Distance of vertices from exact SCAPE over all frames.
     """
 
+    skeleton: Skeleton
     frame: int
-    bones: Float[np.ndarray, "t p 4 4"]
+    bones: Float[np.ndarray, "t b 4 4"]
     vertices: Vertices
-    inverse_bind: Float[np.ndarray, "p 4 4"]
+    inverse_bind: Float[np.ndarray, "b 4 4"]
     parts: Integer[np.ndarray, "m 4"]
     weights: Float[np.ndarray, "m 4"]
     mean_error_m: float
     largest_error_m: float
 
 
-def skin_of(body: MovingBody, model: BodyModel) -> Skin:
+def skin_of(body: MovingBody, model: BodyModel, skeleton: Skeleton) -> Skin:
     """Bind a moving body and measure what linear blending makes of its frames."""
-    frame = most_typical(body)
-    bones = _bones(body, model)
+    return _bound(body, model, skeleton, skeleton.of_body(body, model), most_typical(body))
+
+
+def still_skin_of(body: MovingBody, model: BodyModel, skeleton: Skeleton) -> Skin:
+    """Bind the first frame, and measure what bones that only turn make of the others."""
+    bones = skeleton.of_body(body, model)
+    _, offsets = skeleton.local(bones[:1])
+    measured = _bound(body, model, skeleton, skeleton.only_turned(bones, offsets[0]), 0)
+    return replace(measured, bones=bones[:1])
+
+
+def _bound(
+    body: MovingBody,
+    model: BodyModel,
+    skeleton: Skeleton,
+    bones: Float[np.ndarray, "t b 4 4"],
+    frame: int,
+) -> Skin:
     weights = model.skinning_weights / model.skinning_weights.sum(axis=1, keepdims=True)
     parts = np.where(weights > 0.0, model.skinning_parts, 0)
     vertices = np.asarray(body.shapes[frame], dtype=np.float64)
@@ -69,6 +90,7 @@ def skin_of(body: MovingBody, model: BodyModel) -> Skin:
         for now, exact in zip(bones, body.shapes, strict=True)
     ]
     return Skin(
+        skeleton=skeleton,
         frame=frame,
         bones=bones,
         vertices=vertices,
@@ -95,15 +117,6 @@ def blended(
     """Bound vertices moved by their bones."""
     matrices = np.einsum("mb,mbij->mij", weights, motions[parts][:, :, :3])
     return np.einsum("mij,mj->mi", matrices[:, :, :3], vertices) + matrices[:, :, 3]
-
-
-def _bones(body: MovingBody, model: BodyModel) -> Float[np.ndarray, "t p 4 4"]:
-    """Turned as the parts are, at the joints of the exact bodies."""
-    matrices = np.tile(np.eye(4), (len(body.shapes), len(model.part_names), 1, 1))
-    for frame, (pose, shape) in enumerate(zip(body.motion.poses, body.shapes, strict=True)):
-        matrices[frame, :, :3, :3] = global_rotations(unturned(pose), model.part_parent)
-        matrices[frame, :, :3, 3] = regress(model.joint_regressor, shape.astype(np.float64))
-    return matrices
 
 
 def morphed_glb(
@@ -156,6 +169,10 @@ def morphed_glb(
     return pack_glb(document, binary)
 
 
+_FIRST_BONE = 1
+"""Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it."""
+
+
 def skinned_glb(
     body: MovingBody,
     skin: Skin,
@@ -165,17 +182,17 @@ def skinned_glb(
     albedo_rgb: Vertices | None,
     texture: BodyTexture | None = None,
 ) -> bytes:
-    """The body as a skin on its bones, for programs that go on animating: approximate."""
-    # Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it.
-    first = 1
-    offsets = _bone_offsets(skin, model)
+    """The body as a skin on its bones, for programs that go on animating: approximate.
+
+    Of a skin with the bones of one frame alone it is a rig, which stands still.
+    """
     document = gltf_document(
-        [BODY_NODE | {"skin": 0}, *_bone_nodes(body, offsets[0], model, first)],
+        [BODY_NODE | {"skin": 0}, *_bone_nodes(body, skin)],
         model,
         name="body_skinned",
         frame=Frame.ON_THE_GROUND,
         extras={
-            "method": "linear blending on 17 bones: approximate, not SCAPE",
+            "method": f"linear blending on {len(skin.bones[0])} bones: approximate, not SCAPE",
             "bound_in_frame": skin.frame,
             "largest_error_mm": 1e3 * skin.largest_error_m,
             "mean_error_mm": 1e3 * skin.mean_error_m,
@@ -206,21 +223,22 @@ def skinned_glb(
         skin.weights[owners].astype(np.float32), target=Target.VERTEX_ATTRIBUTE
     )
     matrices = inverse_bind.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
-    bones = [first + part for part in range(len(model.part_names))]
     document["skins"] = [
         {
             "name": "body",
-            "joints": bones,
-            "skeleton": bones[0],
+            "joints": [_FIRST_BONE + bone for bone in range(len(matrices))],
+            "skeleton": _FIRST_BONE,
             "inverseBindMatrices": binary.add(matrices, target=None),
         }
     ]
-    animation = _Animation(binary, body)
-    animation.place(bones[0])
-    for part, node in enumerate(bones[1:], start=1):
-        animation.sampled(node, "translation", offsets[:, part])
-        animation.rotated(node, body.motion.poses[:, part])
-    document["animations"] = [animation.document("motion")]
+    if len(skin.bones) > 1:
+        turns, offsets = skin.skeleton.local(skin.bones)
+        animation = _Animation(binary, body)
+        animation.place(_FIRST_BONE)
+        for bone in range(1, len(skin.skeleton.names)):
+            animation.sampled(_FIRST_BONE + bone, "translation", offsets[:, bone])
+            animation.rotated(_FIRST_BONE + bone, rotation_vectors(turns[:, bone]))
+        document["animations"] = [animation.document("motion")]
     return pack_glb(document, binary)
 
 
@@ -287,28 +305,21 @@ def _normal_targets(
     return with_rest(targets, weights[0]).astype(np.float32)
 
 
-def _bone_offsets(skin: Skin, model: BodyModel) -> Float[np.ndarray, "t p 3"]:
-    """From the parent's joint to the part's, in the axes of the parent; the root's is unused."""
-    joints, rotations = skin.bones[:, :, :3, 3], skin.bones[:, :, :3, :3]
-    parents = np.maximum(model.part_parent, 0)
-    return np.einsum("tpji,tpj->tpi", rotations[:, parents], joints - joints[:, parents])
-
-
-def _bone_nodes(
-    body: MovingBody, offsets: Float[np.ndarray, "p 3"], model: BodyModel, first: int
-) -> list[Node]:
+def _bone_nodes(body: MovingBody, skin: Skin) -> list[Node]:
     """The bones in the first frame."""
+    turns, offsets = skin.skeleton.local(skin.bones[:1])
+    rotations = quaternions(rotation_vectors(turns[0]))
     nodes: list[Node] = []
-    for part, name in enumerate(model.part_names):
-        children = [first + int(child) for child in np.flatnonzero(model.part_parent == part)]
+    for bone, name in enumerate(skin.skeleton.names):
         node: Node = {"name": name}
+        children = [_FIRST_BONE + child for child in skin.skeleton.children(bone)]
         if children:
             node["children"] = children
-        if model.part_parent[part] < 0:
+        if skin.skeleton.parents[bone] < 0:
             node |= _placement(body)
         else:
-            node["translation"] = offsets[part].tolist()
-            node["rotation"] = quaternions(body.motion.poses[:1, part])[0].tolist()
+            node["translation"] = offsets[0, bone].tolist()
+            node["rotation"] = rotations[bone].tolist()
         nodes.append(node)
     return nodes
 

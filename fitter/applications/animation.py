@@ -8,26 +8,30 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image as PillowImage
 
-from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
+from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb, still_skin_of
+from fitter.applications.bvh_export import bvh_of_motion
 from fitter.applications.motion import (
     Motion,
     MovingBody,
     grounded,
+    in_place,
     motion_of_cycle,
     moving_body,
     sliding_m,
 )
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.named_motions import NAMED_MOTIONS
-from fitter.applications.poses import Rig
+from fitter.applications.poses import NAMED_POSES, Rig, named_pose, rig_of
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import Axis, retarget
+from fitter.applications.skeleton import skeleton_of
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.export.gltf_mesh import BodyTexture
 from fitter.export.views import EYE_LEVEL_M, before_onlooker, coloured_body, framing_camera
 from fitter.person.fitted_person import FittedPerson
+from fitter.vocabulary.choices import BoneNames
 from fitter.vocabulary.remarks import Note, Remark, remark
 
 MOST_FRAMES = 360
@@ -72,7 +76,8 @@ class Animation:
     ----------
     files
         ``body_animated.glb`` (exact bodies by morph targets), ``body_skinned.glb`` (linear
-        blending) and ``animation.webp`` (a film that follows the person, again and again).
+        blending), ``motion.bvh`` (its bones) and ``animation.webp`` (a film that follows the
+        person, again and again); of a rig ``body_skinned.glb`` alone.
     frames, frame_time_s
         How many, and seconds from one to the next.
     morph_targets
@@ -80,11 +85,11 @@ class Animation:
     morph_largest_error_mm, morph_mean_error_mm
         Distance of its vertices from exact SCAPE, over all frames.
     skin_largest_error_mm, skin_mean_error_mm
-        The same of ``body_skinned.glb``.
+        The same of ``body_skinned.glb``; of a rig, over the poses that have names.
     sliding_mm
         How far soles slide on the ground from frame to frame, mean.
     travelled_m
-        From the first place to the last, along the ground.
+        From the first place to the last, along the ground, though the files may be in place.
     warnings
         What was left out of the motion or is in doubt.
     """
@@ -185,17 +190,24 @@ def animate(
     chosen: ChosenMotion,
     *,
     texture: BodyTexture | None = None,
+    bones: BoneNames = BoneNames.MAQUETTE,
+    travels: bool = True,
 ) -> Animation:
-    """Set a fitted person in motion, feet on the ground; a texture is in both GLB files."""
+    """Set a fitted person in motion, feet on the ground; a texture is in both GLB files.
+
+    The files show the body's way along the ground where it ``travels``, else the body in place.
+    """
     model, shape, motion = evaluator.model, person.body.shape, chosen.motion
     body = grounded(moving_body(evaluator, shape, motion), model)
+    shown = body if travels else in_place(body)
     # The film before the large files: while it is made all its pictures are in memory.
-    files = {"animation.webp": _film(body, model)}
+    files = {"animation.webp": _film(shown, model)}
     exact = principal_frames(body.shapes)
-    skin = skin_of(body, model)
+    skeleton = skeleton_of(evaluator, shape, rig_of(model, shape), bones)
+    skin = skin_of(body, model, skeleton)
     files |= {
         "body_animated.glb": morphed_glb(
-            body,
+            shown,
             exact,
             model,
             reflectance=person.reflectance,
@@ -203,13 +215,14 @@ def animate(
             texture=texture,
         ),
         "body_skinned.glb": skinned_glb(
-            body,
+            shown,
             skin,
             model,
             reflectance=person.reflectance,
             albedo_rgb=person.albedo_rgb,
             texture=texture,
         ),
+        "motion.bvh": bvh_of_motion(shown, skeleton, model),
     }
     way = body.roots[-1] - body.roots[0]
     return Animation(
@@ -224,6 +237,50 @@ def animate(
         sliding_mm=1e3 * sliding_m(body, model),
         travelled_m=float((way[0] ** 2 + way[2] ** 2) ** 0.5),
         warnings=(*chosen.warnings, *way_warnings(chosen, body)),
+    )
+
+
+def rigged(
+    person: FittedPerson,
+    evaluator: ScapeEvaluator,
+    pose: str,
+    *,
+    texture: BodyTexture | None = None,
+    bones: BoneNames = BoneNames.MAQUETTE,
+) -> Animation:
+    """A fitted person bound to bones in a pose by name, for programs that move it themselves."""
+    model, shape = evaluator.model, person.body.shape
+    rig = rig_of(model, shape)
+    names = (pose, *(name for name in NAMED_POSES if name != pose))
+    poses = [named_pose(rig, name) for name in names]
+    motion = Motion(
+        frame_time_s=1.0 / MOST_FRAMES_PER_SECOND,
+        poses=np.stack(poses),
+        roots=np.zeros((len(poses), 3)),
+        lifts_m=np.zeros(len(poses)),
+    )
+    body = grounded(moving_body(evaluator, shape, motion), model)
+    skin = still_skin_of(body, model, skeleton_of(evaluator, shape, rig, bones))
+    content = skinned_glb(
+        body,
+        skin,
+        model,
+        reflectance=person.reflectance,
+        albedo_rgb=person.albedo_rgb,
+        texture=texture,
+    )
+    return Animation(
+        files={"body_skinned.glb": content},
+        frames=1,
+        frame_time_s=motion.frame_time_s,
+        morph_targets=0,
+        morph_largest_error_mm=0.0,
+        morph_mean_error_mm=0.0,
+        skin_largest_error_mm=1e3 * skin.largest_error_m,
+        skin_mean_error_mm=1e3 * skin.mean_error_m,
+        sliding_mm=0.0,
+        travelled_m=0.0,
+        warnings=(),
     )
 
 

@@ -195,6 +195,33 @@ def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
     return replace(body, roots=roots)
 
 
+SPOT_M = 0.5
+"""How far from its straight way a body still counts as on the spot: people sway, squat and step."""
+
+_EVEN_S = 1.0
+
+
+def in_place(body: MovingBody) -> MovingBody:
+    """The same bodies without their way along the ground, heights kept.
+
+    The straight way from the first frame to the last is taken out, so that a walk can be repeated;
+    of a body that goes elsewhere, the way of each second around.
+    """
+    ground = body.roots[:, [0, 2]]
+    way = np.linspace(ground[0], ground[-1], len(ground))
+    if np.linalg.norm(ground - way, axis=1).max() > SPOT_M:
+        half = min(round(0.5 * _EVEN_S / body.motion.frame_time_s), len(ground) - 1)
+        # Continued beyond its ends as a half turn about them shows it, so that it begins and ends
+        # where the body does.
+        before = 2.0 * ground[0] - ground[half:0:-1]
+        after = 2.0 * ground[-1] - ground[-2 : -half - 2 : -1]
+        sums = np.cumsum(np.concatenate([np.zeros((1, 2)), before, ground, after]), axis=0)
+        way = (sums[2 * half + 1 :] - sums[: -2 * half - 1]) / (2 * half + 1)
+    roots = body.roots.copy()
+    roots[:, [0, 2]] -= way
+    return replace(body, roots=roots)
+
+
 def sliding_m(body: MovingBody, model: BodyModel) -> float:
     """Mean slide, from frame to frame, of what touches the ground of the soles, metres."""
     soles = _soles(body, model) + body.roots[:, None]

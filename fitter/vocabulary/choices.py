@@ -115,3 +115,12 @@ class ViewKind(StrEnum):
     SIDE = "side"
     BACK = "back"
     OTHER = "other"
+
+
+class BoneNames(StrEnum):
+    """Names of a skeleton's bones: those of ``/v1/body-models``, or of other programs."""
+
+    MAQUETTE = "maquette"
+    MIXAMO = "mixamo"
+    UNREAL = "unreal"
+    VRM = "vrm"

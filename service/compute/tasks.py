@@ -102,6 +102,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".csv": "text/csv",
     ".html": "text/html",
     ".npz": "application/zip",
+    ".bvh": "text/plain",
     ".webp": "image/webp",
 }
 

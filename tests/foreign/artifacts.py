@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from api_schemas.fit import FitRequest
-from fitter.applications.motion import grounded, motion_of_cycle, moving_body
+from fitter.applications.motion import grounded, in_place, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
-from fitter.applications.poses import rig_of
+from fitter.applications.poses import named_pose, rig_of
 from fitter.arrays import Vertices
 from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
@@ -40,6 +40,7 @@ PRODUCTS: Mapping[str, dict[str, object]] = {
     "albedo_texture": {"kind": "texture", "colours": "albedo", "size": 512},
     "pose": {"kind": "pose", "pose": "t_pose"},
     "animation": {"kind": "animation"},
+    "rig": {"kind": "animation", "motion": "t_pose", "bones": "mixamo"},
     "caricature": {"kind": "caricature", "factor": 1.5},
 }
 """What makes meshes of the fit, by the name of the folder its files are put in."""
@@ -53,6 +54,7 @@ GLB_FILES = (
     "pose/body_reposed.glb",
     "animation/body_animated.glb",
     "animation/body_skinned.glb",
+    "rig/body_skinned.glb",
     "caricature/body_caricature.glb",
 )
 
@@ -119,7 +121,6 @@ class Shown:
     cameras: int = 0
     texture: bool = False
     morph_targets: int = 0
-    bones: int = 0
 
     def agrees(self, low: Iterable[float], high: Iterable[float], *, frame: int = 0) -> bool:
         """Whether a bounding box is that of a frame's body."""
@@ -189,12 +190,17 @@ class _Results:
         turn = upright_turn(_tilt(self.first()["tilt"]))
         return self.shown(_standing(self.evaluator.body_frame_vertices(body) @ turn.T))
 
+    def rigged(self, pose: str) -> Shown:
+        shape = np.array(self.first()["body"]["shape"])
+        held = named_pose(rig_of(self.model, shape), pose)
+        return self.upright(BodyParameters(pose=held, translation=np.zeros(3), shape=shape))
+
     def animated(self, *, error: str, **more: Any) -> Shown:
-        """The walk that ships with the package, by exact SCAPE."""
+        """The walk that ships with the package, in place, by exact SCAPE."""
         shape = np.array(self.first()["body"]["shape"])
         rig = rig_of(self.model, shape)
         motion = motion_of_cycle(stride_of(rig), rig)
-        body = grounded(moving_body(self.evaluator, shape, motion), self.model)
+        body = in_place(grounded(moving_body(self.evaluator, shape, motion), self.model))
         last = len(body.shapes) - 1
         stated_m = 1e-3 * self.of("animation")[error]
         frames = tuple(body.vertices(frame) for frame in (0, last // 2, last))
@@ -239,9 +245,8 @@ _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "animation/body_animated.glb": lambda r: r.dressed(
         r.animated(error="morph_largest_error_mm", morph_targets=r.of("animation")["morph_targets"])
     ),
-    "animation/body_skinned.glb": lambda r: r.dressed(
-        r.animated(error="skin_largest_error_mm", bones=len(r.model.part_names))
-    ),
+    "animation/body_skinned.glb": lambda r: r.dressed(r.animated(error="skin_largest_error_mm")),
+    "rig/body_skinned.glb": lambda r: r.dressed(r.rigged("t_pose")),
     "caricature/body_caricature.glb": lambda r: r.turned_upright(
         _parameters(r.first()["body"] | {"shape": r.of("caricature")["shape"]})
     ),

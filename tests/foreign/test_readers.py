@@ -12,7 +12,7 @@ import trimesh
 from fitter.body.model import regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
-from tests.external_tools import found
+from tests.external_tools import found, printed
 from tests.foreign.artifacts import GLB_FILES, ROUNDING_M, shown_by
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.results import SUN, reflectance_of, result_of
@@ -70,6 +70,56 @@ def test_the_skin_stands_on_the_ground_for_readers_that_know_no_skins(files: Pat
     assert mesh.volume == pytest.approx(
         trimesh.load_mesh(files / "animation/body_animated.glb", process=False).volume, rel=0.02
     )
+
+
+def played(npm_readers: Path, file: Path, *moments: object) -> list[dict]:
+    """Bones and vertices in three.js at some times, or with its bones turned."""
+    asked = [json.dumps(moment) for moment in moments]
+    return json.loads(printed("node", str(npm_readers / "play.js"), str(file), *asked))
+
+
+@pytest.mark.parametrize("name", sorted(MOVING))
+def test_three_plays_the_exact_bodies(files: Path, npm_readers: Path, name: str):
+    shown = shown_by(name, files)
+    told = json.loads((files / "animation" / "result.json").read_text())
+    last = told["frames"] - 1
+    times = [frame * told["frame_time_s"] for frame in (0, last // 2, last)]
+    for body, moment in zip(shown.frames, played(npm_readers, files / name, *times), strict=True):
+        vertices = np.array(moment["vertices"])[: len(body)]
+        assert np.linalg.norm(vertices - body, axis=1).max() <= shown.tolerance_m + 1e-4
+
+
+def test_three_turns_the_bones_of_a_rig_the_right_way(files: Path, npm_readers: Path):
+    """In the T-pose, x to the person's left: about z an arm sinks, about x a knee flexes."""
+    half = 0.5**0.5
+    turned = {
+        "mixamorig:LeftArm": [0, 0, -half, half],
+        "mixamorig:RightLeg": [half, 0, 0, half],
+        "mixamorig:Head": [0, half, 0, half],
+    }
+    name = "rig/body_skinned.glb"
+    still, moved = played(npm_readers, files / name, {}, turned)
+    body = shown_by(name, files).frames[0]
+    np.testing.assert_allclose(np.array(still["vertices"])[: len(body)], body, atol=ROUNDING_M)
+    at, now = still["bones"], moved["bones"]
+    arm = np.subtract(at["mixamorig:LeftHand"], at["mixamorig:LeftArm"])
+    sunk = np.subtract(now["mixamorig:LeftHand"], now["mixamorig:LeftArm"])
+    assert arm[0] > 0.4
+    np.testing.assert_allclose(sunk, [arm[1], -arm[0], arm[2]], atol=1e-5)
+    assert now["mixamorig:RightFoot"][2] < at["mixamorig:RightFoot"][2] - 0.3, "it goes back"
+    assert now["mixamorig:RightHand"] == at["mixamorig:RightHand"]
+    vertices = np.array(moved["vertices"])[: len(body)]
+    nose = body[:, 2] == body[body[:, 1] > at["mixamorig:Head"][1], 2].max()
+    assert vertices[nose, 0].min() > 0.05, "it looks to its left"
+
+
+def test_three_plays_the_bvh_of_a_motion_as_its_skin(files: Path, npm_readers: Path):
+    """Centimetres; joints that only turn stay within 20 mm."""
+    seconds = 0.5
+    (skin,) = played(npm_readers, files / "animation" / "body_skinned.glb", seconds)
+    (bvh,) = played(npm_readers, files / "animation" / "motion.bvh", seconds)
+    for name, place in skin["bones"].items():
+        assert np.linalg.norm(0.01 * np.array(bvh["bones"][name]) - place) < 0.02, name
 
 
 def test_a_canonical_body_stands_on_the_ground_and_faces_z(files: Path):

@@ -1,12 +1,13 @@
 """The fitted body in motion: from a BVH file sent with the request, or by name."""
 
 from api_schemas.products.base import BodyColours
-from api_schemas.products.bodies import AnimationOptions, AnimationResult
+from api_schemas.products.bodies import AnimationOptions, AnimationResult, NamedMotion
 from fitter.applications.animation import (
     ChosenMotion,
     animate,
     motion_of_clip,
     motion_of_name,
+    rigged,
 )
 from fitter.applications.motion_file import read_motion
 from fitter.applications.poses import Rig, rig_of
@@ -18,18 +19,29 @@ from service.jobs.inputs import CLIP
 def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[AnimationResult]:
     """Set the body in motion."""
     person, evaluator = fit.person, fit.operators.evaluator
+    is_rig = CLIP not in fit.files and options.motion in (NamedMotion.A_POSE, NamedMotion.T_POSE)
     rig = rig_of(evaluator.model, person.body.shape)
-    chosen = _chosen(fit.files.get(CLIP), options, rig)
+    chosen = None if is_rig else _chosen(fit.files.get(CLIP), options, rig)
     report(0.1)
     texture = texture_for(options.colours, fit)
     report(0.2)
-    made = animate(person, evaluator, chosen, texture=texture)
+    if chosen is None:
+        made = rigged(person, evaluator, options.motion, texture=texture, bones=options.bones)
+    else:
+        made = animate(
+            person,
+            evaluator,
+            chosen,
+            texture=texture,
+            bones=options.bones,
+            travels=not options.in_place,
+        )
     return Made(
         result=AnimationResult(
             colours=BodyColours.PLAIN if texture is None else options.colours,
             motion=None if CLIP in fit.files else options.motion,
-            source=chosen.source,
-            up=chosen.up,
+            source="a pose that ships with the package" if chosen is None else chosen.source,
+            up=None if chosen is None else chosen.up,
             frames=made.frames,
             frame_time_s=made.frame_time_s,
             morph_targets=made.morph_targets,

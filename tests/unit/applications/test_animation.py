@@ -15,11 +15,15 @@ from fitter.applications.animation import (
     animate,
     motion_of_clip,
     motion_of_name,
+    rigged,
     way_warnings,
 )
+from fitter.applications.bvh_export import bvh_of_motion
 from fitter.applications.motion import (
     SLOWEST_M_PER_S,
+    SPOT_M,
     grounded,
+    in_place,
     motion_of_cycle,
     moving_body,
     sliding_m,
@@ -29,9 +33,10 @@ from fitter.applications.motion_file import read_motion
 from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose
 from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
+from fitter.applications.skeleton import BONE_NAMES, skeleton_of
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
-from fitter.vocabulary.choices import Gender
+from fitter.vocabulary.choices import BoneNames, Gender
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, bvh_of
 from tests.unit.export.glb_reader import read_glb
@@ -57,8 +62,13 @@ def exact(moving):
 
 
 @pytest.fixture(scope="module")
-def skin(body, moving):
-    return skin_of(moving, body.model)
+def skeleton(body):
+    return skeleton_of(body.evaluator, body.shape, body.rig, BoneNames.MAQUETTE)
+
+
+@pytest.fixture(scope="module")
+def skin(body, moving, skeleton):
+    return skin_of(moving, body.model, skeleton)
 
 
 def channel(glb, path, node):
@@ -139,6 +149,10 @@ def test_the_morphed_file_plays_the_exact_bodies(body, moving, exact):
         assert abs(shown[:, 1].min()) < exact.largest_error_m + 1e-5
 
 
+def depth(node, parents):
+    return 1 + depth(parents[node], parents) if node in parents else 0
+
+
 def test_the_skinned_file_plays_what_its_stated_error_says(body, moving, skin):
     """Read back as a viewer does: Σ w G G_bind⁻¹ v over the bones' nodes."""
     glb = read_glb(skinned_glb(moving, skin, body.model, reflectance=None, albedo_rgb=None))
@@ -161,7 +175,7 @@ def test_the_skinned_file_plays_what_its_stated_error_says(body, moving, skin):
     errors = []
     for frame in range(len(moving.shapes)):
         world = {}
-        for node in nodes:
+        for node in sorted(nodes, key=lambda node: depth(node, parents)):
             local = np.eye(4)
             local[:3, :3] = Rotation.from_quat(channel(glb, "rotation", node)[0][frame]).as_matrix()
             local[:3, 3] = channel(glb, "translation", node)[0][frame]
@@ -257,8 +271,8 @@ def walked(body, roots=None):
 
 
 @pytest.fixture(scope="module")
-def animation(body):
-    person = FittedPerson(
+def person(body):
+    return FittedPerson(
         gender=Gender.MALE,
         model_checksum=str(body.model.header["checksum"]),
         body=BodyParameters(
@@ -269,7 +283,69 @@ def animation(body):
         reflectance=reflectance_of(body.model),
         albedo_rgb=None,
     )
+
+
+@pytest.fixture(scope="module")
+def animation(body, person):
     return animate(person, body.evaluator, walked(body))
+
+
+@pytest.mark.parametrize("pose", ["a_pose", "t_pose"])
+def test_a_rig_is_the_exact_body_in_its_pose_and_says_how_far_it_bends(body, person, pose):
+    made = rigged(person, body.evaluator, pose)
+    assert set(made.files) == {"body_skinned.glb"}
+    glb = read_glb(made.files["body_skinned.glb"])
+    exact = body.vertices(named_pose(body.rig, pose))
+    exact[:, 1] -= exact[:, 1].min()
+    np.testing.assert_allclose(glb.attribute("POSITION"), exact, atol=1e-5)
+    assert "animations" not in glb.document
+    extras = glb.document["scenes"][0]["extras"]
+    assert extras["mean_error_mm"] == made.skin_mean_error_mm < 6.0
+    turns = [node.get("rotation") for node in glb.document["nodes"][1:]]
+    assert len(turns) == 19
+    if pose == "t_pose":
+        np.testing.assert_allclose(turns, [[0.0, 0.0, 0.0, 1.0]] * 19, atol=1e-8)
+
+
+@pytest.mark.parametrize("names", BoneNames)
+def test_a_motion_written_as_bvh_is_read_again_by_every_program_s_names(body, moving, names):
+    """Our own reader knows whose names they are, and turns bones as before."""
+    skeleton = skeleton_of(body.evaluator, body.shape, body.rig, names)
+    assert set(skeleton.names) == set(BONE_NAMES[names].values())
+    source = read_motion(bvh_of_motion(moving, skeleton, body.model))
+    found = motion_of_clip(source, body.rig)
+    assert source.naming.lower().startswith(names)
+    assert (found.up, found.warnings) == ("y", ())
+    turned = [Rotation.from_rotvec(m.poses[:, 0]) for m in (found.motion, moving.motion)]
+    assert np.degrees((turned[0] * turned[1].inv()).magnitude()).max() < 3.0
+    np.testing.assert_allclose(found.motion.poses[:, 12], moving.motion.poses[:, 12], atol=0.05)
+
+
+def test_a_walk_in_place_stays_on_its_spot_and_can_be_repeated(body, moving):
+    assert np.ptp(moving.roots[:, 2]) > 0.9
+    made = in_place(
+        grounded(moving_body(body.evaluator, body.shape, walked(body).motion), body.model)
+    )
+    assert np.linalg.norm(made.roots[:, [0, 2]], axis=1).max() < 0.06
+    np.testing.assert_allclose(made.roots[0, [0, 2]], made.roots[-1, [0, 2]], atol=1e-9)
+
+
+def test_a_body_in_place_neither_leaves_the_frame_nor_slides_where_it_only_sways(moving):
+    """There and back, and round in circles; heights stay."""
+    angles = np.linspace(0.0, 4.0 * np.pi, 300)
+    motion = replace(moving.motion, frame_time_s=1 / 30)
+
+    def walking(way):
+        return replace(
+            moving, motion=motion, roots=np.column_stack([way[0], 0.01 * angles, way[1]])
+        )
+
+    for way in ((0 * angles, 3 * np.sin(angles / 4)), (2 * np.cos(angles), 2 * np.sin(angles))):
+        made = in_place(walking(way)).roots
+        assert np.linalg.norm(made[:, [0, 2]], axis=1).max() < 0.5 * SPOT_M
+        np.testing.assert_array_equal(made[:, 1], 0.01 * angles)
+    swaying = walking((0.2 * np.sin(angles), 0 * angles))
+    np.testing.assert_allclose(in_place(swaying).roots, swaying.roots, atol=1e-9)
 
 
 def test_a_file_that_goes_elsewhere_than_its_feet_is_told_with_both_ways(body):
@@ -304,6 +380,7 @@ def test_an_animation_states_in_its_files_what_it_reports(animation):
     assert set(animation.files) == {
         "body_animated.glb",
         "body_skinned.glb",
+        "motion.bvh",
         "animation.webp",
     }
     morphed, skinned = (

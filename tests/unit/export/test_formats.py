@@ -15,8 +15,10 @@ from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
 from fitter.applications.named_motions import stride_of
 from fitter.applications.principal_frames import principal_frames
+from fitter.applications.skeleton import skeleton_of
 from fitter.export.formats import FORMATS, converted
 from fitter.observation.pixels import display_from_linear
+from fitter.vocabulary.choices import BoneNames
 from service.api.files import MATERIAL, MESH_FORMATS, renditions
 from service.jobs.records import StoredBlob
 from tests.unit.applications.bodies import packaged
@@ -187,7 +189,8 @@ def test_morph_targets_give_the_exact_first_body(body, moving):
 
 
 def test_bones_give_the_first_body_within_the_skins_error(body, moving):
-    skin = skin_of(moving, body.model)
+    skeleton = skeleton_of(body.evaluator, body.shape, body.rig, BoneNames.MAQUETTE)
+    skin = skin_of(moving, body.model, skeleton)
     glb = skinned_glb(moving, skin, body.model, reflectance=None, albedo_rgb=None)
     away = np.linalg.norm(vertices_of(glb) - moving.vertices(0), axis=1)
     assert away.max() <= skin.largest_error_m + 1e-5

@@ -89,7 +89,27 @@ MOTIONS = Path(__file__).parents[1] / "applications" / "data" / "bvh"
 
 
 def test_the_named_motions_of_the_wire_are_the_fitter_s():
-    assert [motion.value for motion in NamedMotion] == list(NAMED_MOTIONS)
+    moving = [motion.value for motion in NamedMotion if not motion.endswith("_pose")]
+    assert moving == list(NAMED_MOTIONS)
+    assert set(NamedMotion) - set(moving) <= set(NAMED_POSES)
+
+
+def test_a_pose_of_the_wire_is_a_rig_with_the_names_and_colours_that_are_asked_for():
+    output = made(kind="animation", motion="a_pose", bones="unreal")
+    assert set(output.files) == {"body_skinned.glb", "texture.jpg"}
+    nodes = read_glb(output.files["body_skinned.glb"]).document["nodes"]
+    assert {"pelvis", "clavicle_l", "calf_r"} < {node["name"] for node in nodes}
+    assert (output.result.frames, output.result.motion) == (1, "a_pose")
+
+
+def test_a_body_goes_its_way_only_if_that_is_asked_for():
+    far, near = (
+        made(kind="animation", duration_s=1, in_place=here).files["motion.bvh"].splitlines()
+        for here in (False, True)
+    )
+    ways = [[float(lines[at].split()[2]) for at in (-30, -1)] for lines in (far, near)]
+    assert abs(np.diff(ways[0])) > 80.0, "centimetres"
+    assert abs(np.diff(ways[1])) < 5.0
 
 
 def test_a_body_moves_as_the_named_motion_says():
@@ -137,6 +157,7 @@ def test_a_clip_moves_the_body_by_the_joints_and_the_axis_that_are_told():
         "animation.webp",
         "body_animated.glb",
         "body_skinned.glb",
+        "motion.bvh",
         "texture.jpg",
     }
 

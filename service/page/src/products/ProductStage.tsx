@@ -19,7 +19,7 @@ export function ProductStage({ product: { id, kind, links }, skin, onBack }: { p
       </div>
       <div class="look-room">
         <div class="look-free">
-          <DerivedCanvas key={id} path={links.files[body.file]!} skin={skin} label={body.label} />
+          <DerivedCanvas key={id} path={links.files[body.file] ?? links.files[body.still!]!} skin={skin} label={body.label} />
         </div>
         <p class="look-hint fine">{look.hint}</p>
       </div>

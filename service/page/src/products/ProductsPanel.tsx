@@ -51,7 +51,7 @@ export function ProductsPanel({ fitId, hasLight, onStage, onShow }: Props) {
 
 function hasBody({ kind, links }: Product): boolean {
   const { body } = KINDS[kind];
-  return body !== undefined && links.files[body.file] !== undefined;
+  return body !== undefined && (body.file in links.files || (body.still ?? "") in links.files);
 }
 
 /** One thing made of a fit: where it stands, what there is to know of it, the way to the stage, its files. */

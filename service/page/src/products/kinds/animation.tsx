@@ -12,7 +12,7 @@ interface AnimationWishes {
 }
 
 const words = messages.products.animation;
-const MOTIONS: readonly NamedMotion[] = ["walk", "wave", "squat"];
+const MOTIONS: readonly NamedMotion[] = ["walk", "wave", "squat", "a_pose", "t_pose"];
 
 export const FIRST_ANIMATION: AnimationWishes = { named: "walk", motion: null };
 
@@ -20,7 +20,7 @@ export const animation: Kind<AnimationWishes> = {
   request: ({ named, motion }) => (motion ? { kind: "animation" } : { kind: "animation", motion: named }),
   part: ({ motion }) => motion && { name: "bvh", file: motion },
   Options: MotionOptions,
-  body: { file: "body_animated.glb", label: words.turned },
+  body: { file: "body_animated.glb", still: "body_skinned.glb", label: words.turned },
 };
 
 function MotionOptions({ wishes: { named, motion }, onWish }: OptionProps<AnimationWishes>) {

@@ -27,8 +27,8 @@ export interface Kind<Wishes = unknown> {
   readonly Options?: (props: OptionProps<Wishes>) => JSX.Element;
   /** The file that is shown as a picture. */
   readonly picture?: string;
-  /** The body that can be turned on the stage, and what it is called there. */
-  readonly body?: { readonly file: string; readonly label: string };
+  /** The body that can be turned on the stage, or what stands for it where there is none, and what it is called there. */
+  readonly body?: { readonly file: string; readonly still?: string; readonly label: string };
   /** What there is to say of a result of this kind; nothing of any other. */
   readonly told?: (result: ProductResult) => ComponentChildren;
 }
