@@ -1,20 +1,28 @@
 """A finished fit as applications need it, in full precision, as one small file.
 
-``person.npz`` holds a JSON header and arrays in double precision, without pickle. Its fields:
+``person.npz`` holds a JSON header and arrays in double precision, without pickle, of the first
+picture where there are several. Its fields:
 
 ====================  ==========  ==================================================================
-``header``            bytes       format version, gender, checksum of the body model, kind of light
-``pose``              (p, 3)      as in :class:`~fitter.parameters.BodyParameters`
-``translation``       (3,)        root joint, camera frame, metres
+``header``            bytes       JSON: ``format_version``, ``gender``, ``model_checksum`` and the
+                                  kind of ``light``, null after a fit without shading
+``pose``              (p, 3)      of the parts, relative to their parents: rotation vectors,
+                                  radians, body frame's axes (x to the person's left, y up,
+                                  z forward), parts in the order of ``/v1/body-models``
+``translation``       (3,)        pelvis' joint, camera frame (x right, y down, z away), metres
 ``shape``             (n,)        standard deviations
 ``shape_covariance``  (n, n)      of ``shape``; where it is known
 ``camera``            (5,)        focal length, principal point (x, y), width, height; pixels
+``tilt``              (2,)        pitch and roll of the camera, radians; where they were estimated,
+                                  as the next two
+``tilt_covariance``   (2, 2)      of ``tilt``
+``stances``           (3,)        probability of ``standing``, ``striding``, ``other``
 ``light``             (3,)        azimuth, elevation (radians), distance (metres, infinite for a
                                   directional light); SES only, as all that follows
 ``eq_1``              (2,)        ambient, specular exponent
-``albedo``            (m,)        of luminance
+``albedo``            (m,)        of luminance, per vertex
 ``specularity``       (m,)
-``albedo_rgb``        (m, 3)      where colour was estimated
+``albedo_rgb``        (m, 3)      linear, where colour was estimated
 ====================  ==========  ==================================================================
 """
 

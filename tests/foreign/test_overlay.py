@@ -5,6 +5,7 @@ import functools
 import http.server
 import io
 import os
+import runpy
 import shutil
 import subprocess
 import sys
@@ -14,12 +15,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
+from fitter.body.storage import packaged_model_path
 from fitter.fits.equipment import prepared_model
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.rasterizer import render
+from fitter.vocabulary.choices import Gender
 from service.demo_data.sample import FOLDER
 from tests.e2e.page.visitor import chromium
 from tests.integration.service.harness import eventually
@@ -52,6 +56,20 @@ def test_trimesh_draws_the_body_where_the_picture_has_it(files: Path, folder: Pa
     drawn = np.asarray(Image.open(folder / "drawn.png"))
     sample = np.asarray(Image.open(FOLDER / "sample.jpg").convert("RGB"))
     check((drawn != sample).any(axis=2), files)
+
+
+def test_numpy_makes_the_body_of_the_person_alone(files: Path, folder: Path, monkeypatch):
+    """The lines that the page shows, and the exported mesh in the camera's axes."""
+    monkeypatch.chdir(folder)
+    shutil.copy(files / "sample" / "person.npz", folder)
+    for gender in Gender:
+        shutil.copy(packaged_model_path(gender), folder)
+    page = Path(__file__).parents[2] / "service" / "docs" / "guide" / "results.md"
+    assert "```{literalinclude} read_person.py" in page.read_text()
+    made = runpy.run_path(str(page.with_name("read_person.py")))["vertices"]
+    scene = trimesh.load_scene("body_posed.glb", process=False)
+    body = scene.to_mesh().apply_transform(np.linalg.inv(scene.graph.get("upright")[0]))
+    np.testing.assert_allclose(made, body.vertices * [1, -1, -1], atol=1e-4)
 
 
 def test_three_js_draws_the_body_where_the_picture_has_it(

@@ -12,7 +12,6 @@ import pytest
 import fitter
 from fitter import library
 from service.demo_data.sample import load_sample
-from tests.readme import block
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -96,21 +95,11 @@ def sample() -> dict[str, object]:
 
 
 @pytest.fixture(scope="module")
-def notebook() -> dict[str, object]:
-    """What the README's lines define."""
-    names: dict[str, object] = {}
-    exec(block("notebook"), names)
-    return names
-
-
-def test_the_readmes_lines_run(notebook):
-    assert notebook["result"].found.silhouette_overlap > 0.9
-    assert notebook["overlay"].startswith(b"\x89PNG")
-
-
-@pytest.fixture(scope="module")
-def fitted(sample, notebook) -> dict[str, object]:
-    return {**sample, "result": notebook["result"]}
+def fitted(sample) -> dict[str, object]:
+    clicks = {name: fitter.Click(x=x, y=y) for name, (x, y) in sample["clicks"].items()}
+    person = fitter.Person(gender=fitter.Gender(sample["gender"]), height_m=sample["height_m"])
+    view = fitter.View(image=sample["picture"], clicks=clicks)
+    return {**sample, "result": fitter.fit(fitter.FitRequest(person=person, views=(view,)))}
 
 
 def test_examples_run(fitted):

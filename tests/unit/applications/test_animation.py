@@ -332,17 +332,16 @@ def test_a_walk_in_place_stays_on_its_spot_and_can_be_repeated(body, moving):
 
 def test_a_body_in_place_neither_leaves_the_frame_nor_slides_where_it_only_sways(moving):
     """There and back, and round in circles; heights stay."""
-    angles = np.linspace(0.0, 4.0 * np.pi, 300)
-    motion = replace(moving.motion, frame_time_s=1 / 30)
+    angles = np.linspace(0.0, 4.0 * np.pi, 33)
+    slow = replace(moving, motion=replace(moving.motion, frame_time_s=0.3))
+    assert len(moving.roots) == len(angles)
 
     def walking(way):
-        return replace(
-            moving, motion=motion, roots=np.column_stack([way[0], 0.01 * angles, way[1]])
-        )
+        return replace(slow, roots=np.column_stack([way[0], 0.01 * angles, way[1]]))
 
     for way in ((0 * angles, 3 * np.sin(angles / 4)), (2 * np.cos(angles), 2 * np.sin(angles))):
         made = in_place(walking(way)).roots
-        assert np.linalg.norm(made[:, [0, 2]], axis=1).max() < 0.5 * SPOT_M
+        assert np.linalg.norm(made[:, [0, 2]], axis=1).max() < SPOT_M
         np.testing.assert_array_equal(made[:, 1], 0.01 * angles)
     swaying = walking((0.2 * np.sin(angles), 0 * angles))
     np.testing.assert_allclose(in_place(swaying).roots, swaying.roots, atol=1e-9)
