@@ -74,7 +74,10 @@ class FitPage(WireModel):
 
 
 class EventKind(StrEnum):
-    """The ``event`` field of the event stream."""
+    """The ``event`` field of the event stream.
+
+    ``end``, the last event, repeats the ``state`` before it.
+    """
 
     STATE = "state"
     PROGRESS = "progress"

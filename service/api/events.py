@@ -42,7 +42,7 @@ ITEMS: Final = "x-itemSchema"
 """OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 this needs an extension."""
 
 _STREAM: Final[dict[str, Any]] = {
-    "description": "Events until the fit ends; the last one is `end`.",
+    "description": "Events until the fit ends: its last `state`, and `end`, which repeats it.",
     "content": {
         "text/event-stream": {
             "schema": {"type": "string"},

@@ -52,27 +52,7 @@ SAMPLES: Final = {
 """Sample pictures for users without one of their own, their clicks, and good and bad pictures to
 learn from."""
 
-SWAGGER: Final = """<!doctype html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Maquette: the API</title>
-<link rel="icon" href="data:,">
-<link rel="stylesheet" href="/docs/swagger-ui.css">
-<div id="api"></div>
-<script src="/docs/swagger-ui-bundle.js"></script>
-<script src="/docs/start.js"></script>
-</html>
-"""
-START_SWAGGER: Final = """SwaggerUIBundle({
-  url: "/openapi.json",
-  dom_id: "#api",
-  deepLinking: true,
-  displayRequestDuration: true,
-  persistAuthorization: false,
-  validatorUrl: null,
-});
-"""
+SWAGGER: Final = Path(__file__).parent / "swagger"
 
 UNCHANGING: Final = {"Cache-Control": "public, max-age=31536000, immutable"}
 """Headers of files whose names contain a hash of their content."""
@@ -142,20 +122,15 @@ def page(request: Request, accept: Annotated[str, Header()] = "*/*") -> Response
 @ROUTER.get("/docs")
 def swagger() -> Response:
     """Return the page of Swagger UI."""
-    return Response(SWAGGER, media_type="text/html", headers={"Content-Security-Policy": OWN_FILES})
-
-
-@ROUTER.get("/docs/start.js")
-def start_swagger() -> Response:
-    """Return what starts Swagger UI."""
-    return Response(START_SWAGGER, media_type="text/javascript", headers=FOR_A_DAY)
+    return FileResponse(SWAGGER / "index.html", headers={"Content-Security-Policy": OWN_FILES})
 
 
 def mount_files(app: FastAPI) -> None:
     """Serve the files of all pages."""
     app.mount("/page", _PageFiles(directory=PAGE))
     # Installers may link a package's files from elsewhere.
-    swagger_files = _Files(packages=[("fastapi_swagger", "resources")], follow_symlink=True)
+    library = ("fastapi_swagger", "resources")
+    swagger_files = _Files(directory=SWAGGER, packages=[library], follow_symlink=True)
     app.mount("/docs", swagger_files)
     mount_site(app, SITE)
 

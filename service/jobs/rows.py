@@ -83,10 +83,13 @@ def append_event(
     job: JobRecord,
     kind: EventKind,
     energies: Mapping[str, float] | None = None,
+    *,
+    before: int = 0,
 ) -> None:
     """Append an event with the fit's current state, in the transaction that changed it.
 
-    Products have none: what is asked of them is where they stand.
+    It is the last one, or so many ``before`` it. Products have none: what is asked of them is where
+    they stand.
     """
     if job.parent is not None:
         return
@@ -100,7 +103,10 @@ def append_event(
     )
     connection.execute(
         sa.insert(EVENTS).values(
-            job_id=job.id, number=job.last_event, kind=kind.value, data=data.model_dump_json()
+            job_id=job.id,
+            number=job.last_event - before,
+            kind=kind.value,
+            data=data.model_dump_json(),
         )
     )
 
@@ -158,8 +164,9 @@ class Endings:
             "expires_at": sa.case((JOBS.c.parent_id.is_(None), latest + self.retention_s)),
             "problem": None if problem is None else problem.model_dump_json(),
         } | dict(values or {})
-        job = _change(connection, job_id, *conditions, state=state, values=changes)
+        job = _change(connection, job_id, *conditions, state=state, values=changes, events=2)
         if job is not None:
+            append_event(connection, job, EventKind.STATE, before=1)
             append_event(connection, job, EventKind.END)
             count_ending(connection, job)
             self.notify(connection, job)
@@ -172,6 +179,7 @@ def _change(
     *conditions: sa.ColumnElement[bool],
     state: JobState,
     values: Mapping[str, object],
+    events: int = 1,
 ) -> JobRecord | None:
     row = (
         connection.execute(
@@ -181,7 +189,7 @@ def _change(
                 JOBS.c.state.in_([source.value for source in may_become(state)]),
                 *conditions,
             )
-            .values(state=state.value, last_event=JOBS.c.last_event + 1, **values)
+            .values(state=state.value, last_event=JOBS.c.last_event + events, **values)
             .returning(JOBS)
         )
         .mappings()

@@ -135,7 +135,7 @@ class Recorder:
 def _first_and_last(stream: str) -> str:
     """A stream of events without most of those that tell of progress."""
     events = stream.removesuffix("\n\n").split("\n\n")
-    return "\n\n".join((*events[:SHOWN_EVENTS], events[-1])) + "\n\n"
+    return "\n\n".join((*events[:SHOWN_EVENTS], *events[-2:])) + "\n\n"
 
 
 def _short(value: Any, name: str = "") -> Any:

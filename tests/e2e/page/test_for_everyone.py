@@ -14,6 +14,7 @@ from fitter.vocabulary.remarks import Code
 from tests.e2e.page.visitor import LIMBS, PHONE, Visitor, serious_findings
 from tests.e2e.service import REPOSITORY, running_service, wait_for_estimator
 from tests.illustrations.measuring_sheet import WITHOUT_EXAMPLE
+from tests.readme import block
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -198,26 +199,39 @@ def test_escape_leaves_the_question_whether_to_delete(visitor: Visitor, finished
     visitor.wait_for_result()
 
 
-FOLLOW = """path => {
-  const { dataset } = document.documentElement;
-  const source = new EventSource(path);
-  dataset.ends = "0";
-  source.addEventListener("end", () => (dataset.ends = String(Number(dataset.ends) + 1)));
-  source.addEventListener("error", () => (dataset.source = String(source.readyState)));
-}"""
-CLOSED = "2"
+CLOSED = 2
+
+GUIDE = f"""fit => new Promise((closed) => {{
+  const told = [];
+  const console = {{ log: ({{ state }}) => told.push(state) }};
+  {block("events")}
+  events.addEventListener("end", () => closed([told, events.readyState]));
+}})"""
 
 
-def test_an_event_source_hears_the_end_once_and_lets_go(
+def test_who_follows_a_fit_as_the_guide_says_is_told_its_end(
     visitor: Visitor, service: httpx.Client, finished_fit: str
 ):
-    events = service.get(f"/v1/fits/{finished_fit}").json()["links"]["events"]
-    visitor.page.evaluate(FOLLOW, events)
-    root = visitor.page.locator("html")
-    expect(root).to_have_attribute("data-source", CLOSED)
-    expect(root).to_have_attribute("data-ends", "1")
-    # One connection brought the events, the other was told that there are no more.
-    assert sum(url.endswith(events) for url in visitor.requests) == 2
+    fit = service.get(f"/v1/fits/{finished_fit}").json()
+    told, ready_state = visitor.page.evaluate(GUIDE, fit)
+    assert (told[0], told[-1]) == ("queued", "succeeded")
+    assert ready_state == CLOSED
+
+
+@pytest.mark.usefixtures("finished_fit")
+def test_swagger_executes_every_post_at_once(visitor: Visitor):
+    page = visitor.page
+    page.goto(f"{visitor.origin}/docs")
+    posts = page.locator(".opblock-post").filter(has=page.locator("[data-path^='/v1/']"))
+    expect(posts).to_have_count(7)
+    for post in posts.all():
+        summary = post.locator(".opblock-summary-control")
+        summary.click()
+        post.get_by_role("button", name="Try it out").click()
+        post.get_by_role("button", name="Execute").click()
+        status = post.locator(".live-responses-table tbody .response-col_status")
+        expect(status.first).to_contain_text("20")
+        summary.click()
 
 
 def test_good_and_bad_pictures_are_shown_on_demand(

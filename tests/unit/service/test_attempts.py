@@ -134,10 +134,11 @@ def test_progress_never_goes_down_and_every_change_is_an_event(database):
     log(database).end(JOB, 1, SUCCESS)
     with database.connect() as connection:
         events = connection.execute(sa.select(EVENTS).order_by(EVENTS.c.number)).all()
-    assert [event.number for event in events] == [1, 2, 3, 4, 5]
+    assert [event.number for event in events] == [1, 2, 3, 4, 5, 6]
     assert [event.kind for event in events] == [
         EventKind.STATE,
         *[EventKind.PROGRESS] * 3,
+        EventKind.STATE,
         EventKind.END,
     ]
     assert '"progress":0.6,"energies":{"total":0.4}' in events[3].data
