@@ -46,7 +46,7 @@ export const products = {
     moves: (file: string) => `It moves as ${file} says.`,
     files: "Or by a file, with joints named as by many programs: CMU, Mixamo, Biovision, SMPL, Unreal and others.",
     motion: "Motion",
-    motions: { walk: "Walk", wave: "Wave", squat: "Squat", a_pose: "A-pose rig", t_pose: "T-pose rig" },
+    motions: { walk: "Walk", wave: "Wave", squat: "Squat", a_pose: "A-pose", t_pose: "T-pose" },
   },
   texture: {
     turned: "The body in colour",
