@@ -35,6 +35,7 @@ from fitter.detection.person_detector import (
     PersonDetector,
 )
 from fitter.detection.weights import checked_weights
+from fitter.detection.worn_parts import WornPart, WornParts, installed_worn_parts
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
 
@@ -125,9 +126,12 @@ class DetectedBody:
 class Detector:
     """Finds people in pictures; not thread-safe."""
 
-    def __init__(self, persons: PersonDetector, landmarks: LandmarkNetwork) -> None:
+    def __init__(
+        self, persons: PersonDetector, landmarks: LandmarkNetwork, worn: WornParts | None = None
+    ) -> None:
         self._persons = persons
         self._landmarks = landmarks
+        self._worn = worn
 
     def bodies(
         self, picture: UInt8[np.ndarray, "h w 3"], view: ViewKind | None = None
@@ -151,6 +155,18 @@ class Detector:
                 found.append(_proposed(person, landmarks))
         return tuple(found)
 
+    def outer_cloth(
+        self, picture: UInt8[np.ndarray, "h w 3"], person: DetectedPerson
+    ) -> GreyImage | None:
+        """Probability (h, w) of cloth over other cloth, where a person is seen.
+
+        None without the network of parts worn.
+        """
+        if self._worn is None:
+            return None
+        maps = self._worn.maps(picture, person)
+        return maps[..., WornPart.OUTER] / np.maximum(1.0 - maps[..., WornPart.BACKGROUND], 0.01)
+
 
 @cache
 def installed_detector(folder: Path | None = None) -> Detector:
@@ -167,6 +183,7 @@ def installed_detector(folder: Path | None = None) -> Detector:
         LandmarkNetwork(
             Network(weights.body_landmarks), FaceDetector(Network(weights.face_detector))
         ),
+        installed_worn_parts(folder),
     )
 
 

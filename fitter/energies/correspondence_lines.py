@@ -38,6 +38,7 @@ from fitter.energies.silhouette import (
     common_offset,
     ease_loss,
     ease_weights,
+    offset_slopes,
 )
 from fitter.evidence.loose_outline import LooseOutline
 from fitter.observation.maps import sample
@@ -282,7 +283,7 @@ def line_rows(
         return (bound,)
     lengths, fullness = _cloth_lengths(lines), lines.fullness
     usual = beyond_usual(residuals, fullness, scales)
-    off = usual + fullness @ common_offset(usual, fullness, lengths, scales)
+    off = usual + offset_slopes(fullness) @ common_offset(usual, fullness, lengths, scales)
     ease = PositionRows(
         residuals=off + scales.ease_mean,
         weights=lengths * ease_weights(off, scales),
@@ -302,7 +303,7 @@ def _ease_energy(
     usual = beyond_usual(residuals, fullness, scales)
     offset = common_offset(usual, fullness, lengths, scales)
     prior = 0.5 * float(offset @ offset) / scales.ease_common_spread**2
-    return float(lengths @ ease_loss(usual + fullness @ offset, scales)) + prior
+    return float(lengths @ ease_loss(usual + offset_slopes(fullness) @ offset, scales)) + prior
 
 
 def _residuals(rendering: Rendering, lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:

@@ -81,6 +81,9 @@ class Observation:
         Whether the detector finds the face of who is seen from the front hidden.
     bodies
         Everybody the detector finds; None if it was not asked.
+    outer_cloth
+        (h, w) probability that what is seen is worn over other clothes, by the detector; None if it
+        finds nobody, or was not asked.
     """
 
     display: Image
@@ -99,6 +102,7 @@ class Observation:
     detected: bool | None
     hides_face: bool
     bodies: tuple[DetectedBody, ...] | None
+    outer_cloth: GreyImage | None
     assumptions: tuple[Remark, ...]
     warnings: tuple[Remark, ...]
 
@@ -128,8 +132,12 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
     linear_rgb = linear_working_picture(picture.pixels, size.from_reduced(picture.reduction))
     display = display_working_picture(linear_rgb)
     given = clicks = scaled_clicks(view.clicks, size.scale)
-    bodies = () if detector is None else detector.bodies(bytes_of_display(display), view.kind)
+    shown = bytes_of_display(display)
+    bodies = () if detector is None else detector.bodies(shown, view.kind)
     detected = body_of_clicks(bodies, clicks)
+    outer_cloth = None
+    if detector is not None and detected is not None:
+        outer_cloth = detector.outer_cloth(shown, detected.person)
     if view.complete_clicks:
         clicks = completed_clicks(given, detected)
         # Up to one working pixel may be left out at the right and lower border of the original.
@@ -158,6 +166,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         detected=None if detector is None else is_somebody_at(bodies, given),
         hides_face=detected is not None and detected.hides_face,
         bodies=None if detector is None else tuple(bodies),
+        outer_cloth=outer_cloth,
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings + side_warnings(clicks),
     )

@@ -7,14 +7,12 @@ import pytest
 
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.fits.clothing import (
-    LONG_SLEEVED,
-    LONG_TOP,
-    SHORT_SLEEVED,
-    SHORT_TOP,
     USUAL_EASE_M,
+    TopShares,
     looks_undressed,
-    share_by_sleeves,
+    shares_by_sleeves,
     usual_fullness,
+    worn_over,
 )
 from fitter.fits.clothing_report import worn_regions
 from fitter.segmentation.coverage import Coverage, bare_forearms
@@ -188,18 +186,21 @@ def forearms(*, seen: bool) -> PersonRegions:
     )
 
 
-@pytest.mark.parametrize(
-    ("bare", "trunk", "sleeves"),
-    [
-        (1.0, SHORT_TOP, SHORT_SLEEVED),
-        (0.0, LONG_TOP, LONG_SLEEVED),
-    ],
-)
-def test_a_top_that_covers_forearms_is_wider(bare, trunk, sleeves):
-    everywhere = np.full((20, 40), bare, dtype=np.float32)
-    found = share_by_sleeves(forearms(seen=True), everywhere)
-    assert found == pytest.approx((trunk, sleeves), rel=0.15)
-    assert share_by_sleeves(forearms(seen=False), everywhere) == (1.0, 1.0)
+def test_a_top_that_covers_forearms_is_wider():
+    dressed, bare = (np.full((20, 40), share, dtype=np.float32) for share in (0.0, 1.0))
+    long, short = (shares_by_sleeves(forearms(seen=True), each) for each in (dressed, bare))
+    assert long.trunk > short.trunk < long.any_trunk
+    assert long.arms > short.arms
+    assert shares_by_sleeves(forearms(seen=False), bare) == TopShares()
+
+
+def test_outer_cloth_counts_where_it_shows_on_who_wears_it():
+    regions = forearms(seen=True)
+    shown = np.where(np.indices(regions.parts.shape)[1] % 3 > 0, np.float32(0.8), np.float32(0.05))
+    jacket, shirt = (np.array(worn_over(share * shown, regions)) for share in (1.0, 0.2))
+    assert ((jacket > 0.9) == (shown > 0.5)).all()
+    assert shirt.max() < 0.1
+    assert worn_over(None, regions) is None
 
 
 def test_forearms_in_the_shade_are_bare_all_the_same():
