@@ -57,7 +57,7 @@ def atlas_of(model: BodyModel, size: int) -> Atlas:
         size=size,
         inside=inside,
         triangles=triangles,
-        weights=_barycentric(texels, triangles, corners[model.uv_triangles]),
+        weights=barycentric(texels, triangles, corners[model.uv_triangles]),
     )
 
 
@@ -88,7 +88,7 @@ def drawn_on(
     return picture
 
 
-def _barycentric(
+def barycentric(
     points: Float[np.ndarray, "t 2"],
     triangles: Integer[np.ndarray, " t"],
     corners: Float[np.ndarray, "f 3 2"],

@@ -179,7 +179,7 @@ def _plain(
     """
     if not len(positions_m):
         return colours
-    worn = _cloth_colours(colours)
+    worn = cloth_colours(colours)
     band = _bands(worn)
     means = np.stack([worn[band == each].mean(axis=0) for each in np.unique(band)])
     worn = means[np.unique(band, return_inverse=True)[1]]
@@ -189,7 +189,7 @@ def _plain(
     return weights @ colours / weights.sum(axis=1, keepdims=True)
 
 
-def _cloth_colours(colours: Float[np.ndarray, "b 3"]) -> Float[np.ndarray, "b 3"]:
+def cloth_colours(colours: Float[np.ndarray, "b 3"]) -> Float[np.ndarray, "b 3"]:
     """CIELAB with less of its brightness, in which folds and shade differ most."""
     shown = display_from_linear(np.clip(colours, 0.0, 1.0)).astype(np.float32)
     lab = cv2.cvtColor(shown[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)

@@ -63,11 +63,12 @@ def face_to_leave_out(surface: PictureSurface, model: BodyModel) -> Float[np.nda
     return features
 
 
-FORGOTTEN_M = 0.06
+FORGOTTEN_M = 0.1
 """Along the surface, over which the light at a border loses its influence by e."""
 
-MOST_RATIO = 0.6
-"""Logarithm of the most that light differs by: more is another colour, which is not carried on."""
+MOST_RATIO, MOST_TINT = 1.5, 0.35
+"""Logarithms of the most that light differs by, and that its channels differ by in that: more is
+another colour, which is not carried on."""
 
 _CHUNK = 1 << 17
 
@@ -108,8 +109,7 @@ class BothSides:
 
     def _at_few(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
         colours, seen = self.look(points)
-        mirror = SurfacePoints(corners=self.model.mirror[points.corners], weights=points.weights)
-        other, belief = self.look(mirror)
+        other, belief = self.look(points.moved(self.model.mirror))
         other = other * np.exp(points.of(self.ratios))
         mirrored = (1.0 - seen) * belief
         total = np.maximum(seen + mirrored, 1e-12)[:, None]
@@ -124,7 +124,8 @@ def extend_light(
     Where they are known, and from there toward 0 by e over :data:`FORGOTTEN_M`.
     """
     ratios = np.log(np.maximum(colours, DARKEST) / np.maximum(others, DARKEST))
-    lit = known & (np.abs(ratios).max(axis=1) < MOST_RATIO)
+    same = (np.abs(ratios).max(axis=1) < MOST_RATIO) & (np.ptp(ratios, axis=1) < MOST_TINT)
+    lit = known & same
     if not lit.any():
         return np.zeros_like(ratios)
     return extend_values(model, lit, ratios, over_m=FORGOTTEN_M)

@@ -67,6 +67,10 @@ class SurfacePoints:
         )
         return matrix @ values
 
+    def moved(self, to: Integer[np.ndarray, " m"]) -> "SurfacePoints":
+        """The points between the vertices that each corner is moved to."""
+        return SurfacePoints(corners=to[self.corners], weights=self.weights)
+
     def near(self, vertices: Bool[np.ndarray, " m"]) -> Integer[np.ndarray, " n"]:
         """Which points any of these vertices has a share in."""
         return np.flatnonzero(self.of(vertices.astype(np.float64)) > 0.0)
@@ -280,7 +284,7 @@ def _colours_of(
     seen: Float[np.ndarray, "k 3"],
 ) -> list[tuple[Vector3, Vector3]]:
     """Means and deviations of the colours of a scalp that cover enough of it."""
-    label = _nearest_of_two(seen)
+    label = nearest_of_two(seen)
     found: list[tuple[Vector3, Vector3]] = []
     for each in range(COLOURS):
         own = seen[label == each]
@@ -300,7 +304,7 @@ def _may_be_skin(hair: Vector3, face: Float[np.ndarray, "k 3"]) -> bool:
     return bool(alike) and float(hair.sum()) > DARKEST_SHADE * float(skin.sum())
 
 
-def _nearest_of_two(seen: Float[np.ndarray, "k 3"]) -> Integer[np.ndarray, " k"]:
+def nearest_of_two(seen: Float[np.ndarray, "k 3"]) -> Integer[np.ndarray, " k"]:
     """k-means from the two ends of the axis along which the colours differ most."""
     away = seen - seen.mean(axis=0)
     ends = away @ np.linalg.svd(away, full_matrices=False)[2][0] > 0.0

@@ -127,9 +127,9 @@ def _beside(
 
 def _features(model: BodyModel) -> Float[np.ndarray, " m"]:
     """Which vertices lie on the front of the face."""
-    chin, ears = _landmark(model, "chin"), _middle(model, "ear")
+    chin, ears = landmark(model, "chin"), _middle(model, "ear")
     _, y, z = model.mean_vertices.T
-    ahead = z > ears[2] + _FACE_SHARE * (_landmark(model, "nose")[2] - ears[2])
+    ahead = z > ears[2] + _FACE_SHARE * (landmark(model, "nose")[2] - ears[2])
     return (ahead & (y > chin[1]) & ~_under_hair(model, model.mean_vertices)).astype(np.float64)
 
 
@@ -138,7 +138,7 @@ def _along_arms(model: BodyModel) -> Float[np.ndarray, " m"]:
     along = np.empty(len(model.mean_vertices))
     left = model.mean_vertices[:, 0] >= 0.0
     for side, own in (("left", left), ("right", ~left)):
-        shoulder, wrist = (_landmark(model, f"{side}_{name}") for name in ("shoulder", "wrist"))
+        shoulder, wrist = (landmark(model, f"{side}_{name}") for name in ("shoulder", "wrist"))
         axis = unit_vectors(wrist - shoulder)
         along[own] = (model.mean_vertices[own] - shoulder) @ axis
     return along
@@ -150,20 +150,21 @@ def _under_hair(model: BodyModel, points: Float[np.ndarray, "k 3"]) -> Bool[np.n
     Those above a line from hairline to ears, and behind, but for the ears.
     """
     eyes, ears = _middle(model, "eye"), _middle(model, "ear")
-    crown = _landmark(model, "head_top")
+    crown = landmark(model, "head_top")
     hairline_y = eyes[1] + _HAIRLINE * (crown[1] - eyes[1])
     slope = (hairline_y - ears[1]) / (eyes[2] - ears[2])
     ahead, above = points[:, 2] - ears[2], points[:, 1] - ears[1]
-    outward = np.abs(points[:, 0]) - abs(_landmark(model, "left_ear")[0])
+    outward = np.abs(points[:, 0]) - abs(landmark(model, "left_ear")[0])
     on_ear = (outward > _EAR_OUTWARD_M) & (np.abs(above) < _EAR_REACH_M)
     return ~on_ear & np.where(ahead > 0.0, above > slope * ahead, above > -_NAPE_M)
 
 
 def _middle(model: BodyModel, name: str) -> Vector3:
     """Between the left and the right one."""
-    return 0.5 * (_landmark(model, f"left_{name}") + _landmark(model, f"right_{name}"))
+    return 0.5 * (landmark(model, f"left_{name}") + landmark(model, f"right_{name}"))
 
 
-def _landmark(model: BodyModel, name: str) -> Vector3:
+def landmark(model: BodyModel, name: str) -> Vector3:
+    """A landmark of the mean body at rest, metres."""
     points = regress(model.landmarks, model.mean_vertices)
     return points[model.landmarks.names.index(name)]

@@ -14,6 +14,7 @@ from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
+from fitter.applications.pelvis import PelvisColours
 from fitter.applications.picture_look import (
     BELIEVED,
     BothSides,
@@ -255,8 +256,13 @@ def _hidden_colours(
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    light = extend_light(model, known, of_vertices, on_rings(rings, profiles, vertices))
-    return on_rings(rings, profiles, points) * np.exp(points.of(light))
+    pelvis = PelvisColours.of(sides, points)
+
+    def continued(places: SurfacePoints) -> Colours:
+        return pelvis.over(places, on_rings(rings, profiles, places))
+
+    light = extend_light(model, known, of_vertices, continued(vertices))
+    return continued(points) * np.exp(points.of(light))
 
 
 def _near_what_is_hidden(

@@ -5,11 +5,10 @@ import numpy as np
 import pytest
 
 from fitter.applications.atlas import atlas_of
-from fitter.applications.picture_look import FORGOTTEN_M
 from fitter.applications.picture_surface import SurfacePoints
 from fitter.applications.rings import Region, RingCoordinates
-from fitter.applications.surface_field import extend_values
 from fitter.applications.texture import TexelOrigin, picture_texture
+from fitter.body.model import regress
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.observation.pixels import linear_from_display
 from fitter.parameters import BodyParameters
@@ -88,15 +87,19 @@ def sitter() -> Sitter:
     return Sitter()
 
 
+def points_of(sitter):
+    atlas = atlas_of(sitter.model, 512)
+    return SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+
+
 def texels(sitter, texture):
     """Region, height on the mean body, linear colour and origin of all texels."""
-    atlas = atlas_of(sitter.model, len(texture.levels))
-    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    points, inside = points_of(sitter), atlas_of(sitter.model, 512).inside
     return (
         sitter.rings.of_points(points)[0],
         points.of(sitter.model.mean_vertices)[:, 1],
-        texture.scale * linear_from_display(texture.levels[atlas.inside] / 255.0),
-        texture.coverage[atlas.inside],
+        texture.scale * linear_from_display(texture.levels[inside] / 255.0),
+        texture.coverage[inside],
     )
 
 
@@ -140,8 +143,7 @@ def test_hair_that_hangs_over_a_shirt_is_not_painted_on_it(sitter):
     assert mask[lowest - 5, column - 10]
     texture = picture_texture(sitter.person, sitter.evaluator, picture, mask=mask, size=512)
     region, _, colours, _ = texels(sitter, texture)
-    dark = colours[region == Region.TRUNK].max(axis=1) < 0.08
-    assert dark.mean() < 0.002
+    assert (colours[region == Region.TRUNK].max(axis=1) < 0.08).mean() < 0.002
 
 
 def test_a_shirt_of_the_hairs_colour_is_kept(sitter):
@@ -159,23 +161,10 @@ def test_a_shirt_of_the_hairs_colour_is_kept(sitter):
     assert (np.abs(colours[on_shirt] - HAIR).max(axis=1) < 0.05).mean() > 0.9
 
 
-def test_what_is_seen_at_a_border_is_forgotten_by_e_over_its_length(sitter):
-    height = sitter.model.mean_vertices[:, 1]
-    trunk = np.zeros(len(height), dtype=bool)
-    trunk[sitter.model.triangles[sitter.rings.region == Region.TRUNK]] = True
-    known = trunk & (height < -0.5)
-    values = np.where(known, 1.0, np.nan)[:, None] * np.ones(3)
-    followed = extend_values(sitter.model, known, values, over_m=FORGOTTEN_M)
-    shin = trunk & (np.abs(height - (-0.5 + FORGOTTEN_M)) < 0.01)
-    assert np.allclose(followed[known], 1.0)
-    assert followed[shin].mean() == pytest.approx(np.exp(-1.0), abs=0.1)
-
-
 def test_hidden_texels_lie_within_the_colours_seen_of_their_region(sitter, dressed):
     """But for where two regions blend."""
     region, _, colours, origin = dressed
-    atlas = atlas_of(sitter.model, 512)
-    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    points = points_of(sitter)
     within = points.of(sitter.rings.shares.T).max(axis=1) > 0.95
     within &= (region != Region.ARMS) | (points.of(sitter.rings.along_m[Region.ARMS]) > 0.1)
     for each in Region:
@@ -214,6 +203,19 @@ def test_a_pattern_is_not_drawn_out_to_stripes_behind(sitter):
     assert spread[TexelOrigin.CONTINUED] < 0.4 * spread[TexelOrigin.SEEN]
 
 
+def test_a_swimsuit_has_no_hole_between_the_legs(sitter):
+    model, worn = sitter.model, sitter.worn()
+    crotch = regress(model.landmarks, model.mean_vertices)[model.landmarks.names.index("crotch"), 1]
+    aside, height = np.abs(model.mean_vertices[:, 0]), model.mean_vertices[:, 1]
+    worn[(worn == SHORTS).all(axis=1) & (height < crotch + aside - 0.04)] = SKIN
+    texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
+    region, height, colours, _ = texels(sitter, texture)
+    aside = np.abs(points_of(sitter).of(model.mean_vertices)[:, 0])
+    level = (region == Region.TRUNK) & (np.abs(height - crotch) < 0.02)
+    assert np.median(np.abs(colours[level & (aside < 0.02)] - SHORTS).max(axis=1)) < 0.1
+    assert np.median(np.abs(colours[level & (aside > 0.1)] - SKIN).max(axis=1)) < 0.05
+
+
 def near_eyes(model, places, *, within_m=0.018):
     rows = model.landmarks
     near = np.zeros(len(places), dtype=bool)
@@ -231,8 +233,7 @@ def test_a_face_is_shown_whole_or_as_plain_skin(turned, is_shown):
     eyes = near_eyes(sitter.model, sitter.model.mean_vertices)
     worn[eyes] = painted = [0.1, 0.6, 0.1]
     texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
-    atlas = atlas_of(sitter.model, 512)
-    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    points = points_of(sitter)
     eyes = near_eyes(sitter.model, points.of(sitter.model.mean_vertices), within_m=0.01)
     _, _, colours, _ = texels(sitter, texture)
     green = np.abs(colours[eyes] - painted).max(axis=1) < 0.1
