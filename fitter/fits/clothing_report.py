@@ -155,7 +155,7 @@ def with_what_clothes_cost(
         The same if the weight were known; None if it is.
     """
     return tuple(
-        _costing(each, what_is_loose(clothing), waist_cm, weighed_cm)
+        _costing(each, what_is_loose(clothing) + _standing_off(clothing), waist_cm, weighed_cm)
         if each.code == Code.CLOTHES_LOOSE and waist_cm is not None
         else each
         for each in findings
@@ -165,7 +165,7 @@ def with_what_clothes_cost(
 def _costing(found: Remark, said: str, waist_cm: float, weighed_cm: float | None) -> Remark:
     remedy = "Close-fitting clothes make it surer."
     if weighed_cm is not None:
-        remedy = f"Close-fitting clothes make it surer, or the weight: ± {_half(weighed_cm)} cm."
+        remedy = f"With the weight it is known to ± {_half(weighed_cm)} cm. {remedy}"
     return replace(
         found,
         reason=(
@@ -174,6 +174,14 @@ def _costing(found: Remark, said: str, waist_cm: float, weighed_cm: float | None
         ),
         remedy=remedy,
     )
+
+
+def _standing_off(clothing: Sequence[WornRegion]) -> str:
+    """More of that sentence: how far clothes stand off the trunk, where an outline shows it."""
+    for each in clothing:
+        if each.region is BodyRegion.UPPER and each.ease_cm is not None:
+            return f", about {max(each.ease_cm, 0.0):.0f} cm off the upper body"
+    return ""
 
 
 def _half(standard_error: float) -> str:
