@@ -81,9 +81,9 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[Remark, ...]:
     """Warnings where left and right contradict each other.
 
     With the trunk upright, the left of a person seen from the front lies to the right, and of one
-    seen from behind to the left. Shoulders and hips must agree, and a person who shows both eyes
-    is seen from the front. Legs and arms may cross; one eye or a nose may be looking over a
-    shoulder, and of a trunk in profile the order of the eyes tells nothing.
+    seen from behind to the left. Shoulders and hips must agree, and a person both of whose eyes
+    somebody clicked is seen from the front. Legs and arms may cross; one eye, a nose or what is
+    proposed may look over a shoulder; of a trunk in profile the order of the eyes tells nothing.
     """
     trunk = _trunk(clicks)
     if trunk is None:
@@ -101,7 +101,7 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[Remark, ...]:
         )
     trunk_from_front = hips if shoulders is None else shoulders
     eyes_from_front = None
-    if _seen(clicks, "left_eye") and _seen(clicks, "right_eye"):
+    if _seen_by_hand(clicks, "left_eye") and _seen_by_hand(clicks, "right_eye"):
         eyes_from_front = _seen_from_front(clicks, "eye", trunk, breadth=0.0)
     if None not in (trunk_from_front, eyes_from_front) and False in (
         trunk_from_front,
@@ -141,8 +141,8 @@ def _trunk(clicks: Mapping[str, Click]) -> tuple[float, float] | None:
     )
 
 
-def _seen(clicks: Mapping[str, Click], name: str) -> bool:
-    return name in clicks and not clicks[name].occluded
+def _seen_by_hand(clicks: Mapping[str, Click], name: str) -> bool:
+    return name in clicks and not clicks[name].occluded and clicks[name].spread_m is None
 
 
 def _seen_from_front(

@@ -129,6 +129,8 @@ def test_a_person_seen_from_behind_gives_no_warning():
         name: replace(standing_clicks()[name], occluded=True) for name in ("left_eye", "right_eye")
     }
     assert side_warnings(hidden_face) == ()
+    eyes = {name: replace(clicks[name], spread_m=0.01) for name in ("left_eye", "right_eye")}
+    assert side_warnings(clicks | eyes) == (), "a detector proposes those of a look back, too"
 
 
 def test_swapped_hips_are_warned_of():
