@@ -29,7 +29,7 @@ from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.export.gltf_mesh import BodyTexture
-from fitter.export.views import EYE_LEVEL_M, before_onlooker, coloured_body, framing_camera
+from fitter.export.views import EYE_LEVEL_M, before_onlooker, framing_camera, shown_body
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import BoneNames
 from fitter.vocabulary.remarks import Note, Remark, remark
@@ -201,7 +201,7 @@ def animate(
     body = grounded(moving_body(evaluator, shape, motion), model)
     shown = body if travels else in_place(body)
     # The film before the large files: while it is made all its pictures are in memory.
-    files = {"animation.webp": _film(shown, model)}
+    files = {"animation.webp": _film(shown, model, texture)}
     exact = principal_frames(body.shapes)
     skeleton = skeleton_of(evaluator, shape, rig_of(model, shape), bones)
     skin = skin_of(body, model, skeleton)
@@ -302,7 +302,7 @@ def way_warnings(chosen: ChosenMotion, body: MovingBody) -> tuple[Remark, ...]:
     return (remark(Note.WAY_DIFFERS, message),)
 
 
-def _film(body: MovingBody, model: BodyModel) -> bytes:
+def _film(body: MovingBody, model: BodyModel, texture: BodyTexture | None) -> bytes:
     """An animated WebP of at most 15 frames a second; the camera goes along with the person."""
     frame_time_s = body.motion.frame_time_s
     step = max(
@@ -314,10 +314,9 @@ def _film(body: MovingBody, model: BodyModel) -> bytes:
     width, height = FILM_PX
     some = np.concatenate([_before_film(body, frame) for frame in chosen[::4]])
     camera = framing_camera(some, width=width, height=height)
-    pictures = [
-        PillowImage.fromarray(coloured_body(_before_film(body, frame), model.triangles, camera))
-        for frame in chosen
-    ]
+    shown = (_before_film(body, frame) for frame in chosen)
+    levels = (shown_body(each, model.triangles, camera, texture) for each in shown)
+    pictures = [PillowImage.fromarray(each) for each in levels]
     stream = io.BytesIO()
     pictures[0].save(
         stream,

@@ -5,7 +5,6 @@ seen is told apart into two colours, say of cloth and skin; a hidden point has t
 straight before it, or behind it. Patterns differ left and right: they are left to rings.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -43,56 +42,40 @@ _DISTANCE_M, _METRE_PX = 100.0, 1000.0
 _SIDE_PX = 600
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class PelvisColours:
-    """The two colours of a pelvis.
+def pelvis_colours(sides: BothSides, points: SurfacePoints) -> Float[np.ndarray, "2 3"] | None:
+    """The two linear colours of points that are seen; None where it is one, or a pattern's."""
+    points = points.some(points.near(pelvis_weights(sides.model) > BELIEVED))
+    found, seen = sides.look(points)
+    other, mirrored = sides.look(points.moved(sides.model.mirror))
+    both = (seen >= BELIEVED) & (mirrored >= BELIEVED)
+    if np.count_nonzero(both) < LEAST_SEEN:
+        return None
+    found, other = found[both], other[both]
+    first = nearest_of_two(cloth_colours(found)) == 0
+    two = np.stack([np.median(found[own], axis=0) for own in (first, ~first) if own.any()])
+    if np.linalg.norm(np.ptp(cloth_colours(two), axis=0)) < SAME_CLOTH:
+        return None
+    second, mirror = (_towards_second(two, each) > 0.5 for each in (found, other))
+    return two if np.mean(second == mirror) >= ALIKE_SHARE else None
 
-    Attributes
-    ----------
-    sides
-        The body as its picture shows it.
-    colours
-        (2, 3) linear, or None where there are not two, or they are a pattern's.
-    """
 
-    sides: BothSides
-    colours: Float[np.ndarray, "2 3"] | None
-
-    @classmethod
-    def of(cls, sides: BothSides, points: SurfacePoints) -> "PelvisColours":
-        """Tell apart the colours of points that are seen."""
-        points = points.some(points.near(pelvis_weights(sides.model) > BELIEVED))
-        found, seen = sides.look(points)
-        other, mirrored = sides.look(points.moved(sides.model.mirror))
-        both = (seen >= BELIEVED) & (mirrored >= BELIEVED)
-        if np.count_nonzero(both) < LEAST_SEEN:
-            return cls(sides=sides, colours=None)
-        found, other = found[both], other[both]
-        first = nearest_of_two(cloth_colours(found)) == 0
-        two = np.stack([np.median(found[own], axis=0) for own in (first, ~first) if own.any()])
-        if np.linalg.norm(np.ptp(cloth_colours(two), axis=0)) < SAME_CLOTH:
-            return cls(sides=sides, colours=None)
-        second, mirror = (_towards_second(two, each) > 0.5 for each in (found, other))
-        alike = np.mean(second == mirror) >= ALIKE_SHARE
-        return cls(sides=sides, colours=two if alike else None)
-
-    def over(self, points: SurfacePoints, colours: Colours) -> Colours:
-        """Colours of points; about the pelvis these, nearest to their own where neither is seen."""
-        if self.colours is None:
-            return colours
-        model, weights = self.sides.model, pelvis_weights(self.sides.model)
-        own = points.near(weights > 0.0)
-        there, through = points.some(own), colours.copy()
-        second = _towards_second(self.colours, colours[own])
-        for sign in (-1.0, 1.0):
-            opposite, exists = _straight_from(model, there, sign)
-            found, seen, mirrored = self.sides.at(opposite)
-            share = np.where(exists, smooth_step(seen + mirrored, *_CARRIED), 0.0)
-            second += share * (_towards_second(self.colours, found) - second)
-        share = smooth_step(second, *BORDER)[:, None]
-        worn = (1.0 - share) * self.colours[0] + share * self.colours[1]
-        through[own] += there.of(weights)[:, None] * (worn - through[own])
-        return through
+def through_pelvis(
+    sides: BothSides, two: Float[np.ndarray, "2 3"], points: SurfacePoints, colours: Colours
+) -> Colours:
+    """Colours of points; about the pelvis the two, nearest to their own where neither is seen."""
+    weights = pelvis_weights(sides.model)
+    own = points.near(weights > 0.0)
+    there, through = points.some(own), colours.copy()
+    second = _towards_second(two, colours[own])
+    for sign in (-1.0, 1.0):
+        opposite, exists = _straight_from(sides.model, there, sign)
+        found, seen, mirrored = sides.at(opposite)
+        share = np.where(exists, smooth_step(seen + mirrored, *_CARRIED), 0.0)
+        second += share * (_towards_second(two, found) - second)
+    share = smooth_step(second, *BORDER)[:, None]
+    worn = (1.0 - share) * two[0] + share * two[1]
+    through[own] += there.of(weights)[:, None] * (worn - through[own])
+    return through
 
 
 def _towards_second(two: Float[np.ndarray, "2 3"], colours: Colours) -> Beliefs:

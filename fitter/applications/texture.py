@@ -12,9 +12,9 @@ from enum import IntEnum
 import numpy as np
 from jaxtyping import Float, Integer, UInt8
 
-from fitter.applications.atlas import Atlas, atlas_of, drawn_on
+from fitter.applications.atlas import atlas_of, drawn_on
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
-from fitter.applications.pelvis import PelvisColours
+from fitter.applications.pelvis import pelvis_colours, through_pelvis
 from fitter.applications.picture_look import (
     BELIEVED,
     BothSides,
@@ -214,12 +214,16 @@ def _texture(
     belief = seen + mirrored
     colours = belief[:, None] * found + (1.0 - belief[:, None]) * hidden
     scale = max(1.0, float(np.percentile(colours, 99.5)) / lightest)
-    origin = _origin(seen, mirrored)
+    origin = np.full(len(seen), TexelOrigin.CONTINUED, dtype=np.uint8)
+    origin[seen + mirrored >= BELIEVED] = TexelOrigin.MIRRORED
+    origin[seen >= BELIEVED] = TexelOrigin.SEEN
+    coverage = np.zeros_like(atlas.inside, dtype=np.uint8)
+    coverage[atlas.inside] = origin
     linear = np.clip(colours / scale, 0.0, 1.0).astype(np.float32)
     levels = np.rint(255.0 * display_from_linear(linear))
     return Texture(
         levels=drawn_on(atlas.inside, levels.astype(np.uint8)),
-        coverage=_picture_of(atlas, origin),
+        coverage=coverage,
         scale=scale,
         seen_share=float(np.mean(origin == TexelOrigin.SEEN)),
         mirrored_share=float(np.mean(origin == TexelOrigin.MIRRORED)),
@@ -256,10 +260,11 @@ def _hidden_colours(
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    pelvis = PelvisColours.of(sides, points)
+    two = pelvis_colours(sides, points)
 
     def continued(places: SurfacePoints) -> Colours:
-        return pelvis.over(places, on_rings(rings, profiles, places))
+        colours = on_rings(rings, profiles, places)
+        return colours if two is None else through_pelvis(sides, two, places, colours)
 
     light = extend_light(model, known, of_vertices, continued(vertices))
     return continued(points) * np.exp(points.of(light))
@@ -274,19 +279,6 @@ def _near_what_is_hidden(
     """
     beside = MIDDLE_SHARE + (1.0 - MIDDLE_SHARE) * points.of(rings.beside) ** 2
     return np.where(region == Region.TRUNK, beside, 1.0)
-
-
-def _origin(seen: Beliefs, mirrored: Beliefs) -> UInt8[np.ndarray, " k"]:
-    origin = np.full(len(seen), TexelOrigin.CONTINUED, dtype=np.uint8)
-    origin[seen + mirrored >= BELIEVED] = TexelOrigin.MIRRORED
-    origin[seen >= BELIEVED] = TexelOrigin.SEEN
-    return origin
-
-
-def _picture_of(atlas: Atlas, values: UInt8[np.ndarray, " t"]) -> UInt8[np.ndarray, "n n"]:
-    picture = np.zeros((atlas.size, atlas.size), dtype=np.uint8)
-    picture[atlas.inside] = values
-    return picture
 
 
 DIM, LIT = 0.1, 0.35
@@ -309,11 +301,7 @@ class LitSurface:
 
     @classmethod
     def of(
-        cls,
-        surface: PictureSurface,
-        person: FittedPerson,
-        light: Light,
-        reflectance: Reflectance,
+        cls, surface: PictureSurface, person: FittedPerson, light: Light, reflectance: Reflectance
     ) -> "LitSurface":
         """Surface of a body before its picture, in the light that the fit found."""
         rendering, centre = surface.rendering, person.body.translation

@@ -9,14 +9,18 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from jaxtyping import Float, UInt8
+from scipy import sparse
 
-from fitter.arrays import Triangles, Vector3, Vertices
+from fitter.arrays import Normals, Triangles, Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
-from fitter.export.antialiasing import render_finely, vertex_pictures
-from fitter.export.display import slope_bounds
+from fitter.export.antialiasing import SAMPLES, render_finely, vertex_pictures
+from fitter.export.display import finer, slope_bounds
+from fitter.export.gltf_mesh import BodyTexture
+from fitter.numerics.rotations import unit_vectors
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
+from fitter.render.rasterizer import Rendering, render, shade_image
 
 PANEL_HEIGHT_PX = 720
 PANEL_WIDTH_PX = 520
@@ -32,6 +36,9 @@ CLAY = np.array([0.62, 0.53, 0.47])
 """Linear albedo."""
 
 FILL_LIGHT = 0.18
+
+CALM, CALM_FINE, FINE_M = 3, 80, 0.012
+"""Passes that calm all normals, and those at edges shorter than the last."""
 
 LABEL_COLOUR = (70, 70, 70)
 
@@ -58,17 +65,17 @@ class BodyView:
     degrees: float = 0.0
 
 
-def preview(views: Sequence[BodyView], triangles: Triangles) -> UInt8[np.ndarray, "h w 3"]:
-    """Panels from left to right, in one scale and on one ground."""
+def preview(
+    views: Sequence[BodyView], triangles: Triangles, texture: BodyTexture | None = None
+) -> UInt8[np.ndarray, "h w 3"]:
+    """Panels from left to right, in one scale and on one ground; of clay without a texture."""
     seen = [_on_the_ground(view) for view in views]
     camera = _panel_camera(np.concatenate(seen))
-    return np.concatenate(
-        [
-            clay_panel(vertices, triangles, view.label, camera)
-            for view, vertices in zip(views, seen, strict=True)
-        ],
-        axis=1,
-    )
+    panels = [
+        _labelled(shown_body(vertices, triangles, camera, texture), view.label)
+        for view, vertices in zip(views, seen, strict=True)
+    ]
+    return np.concatenate(panels, axis=1)
 
 
 def _on_the_ground(view: BodyView) -> Vertices:
@@ -110,7 +117,7 @@ def views_picture(
     }
     return np.concatenate(
         [
-            clay_panel(vertices, triangles, label, _panel_camera(vertices))
+            _labelled(coloured_body(vertices, triangles, _panel_camera(vertices)), label)
             for label, vertices in panels.items()
         ],
         axis=1,
@@ -176,25 +183,10 @@ def _panel_camera(vertices: Vertices) -> Camera:
     return framing_camera(vertices, width=PANEL_WIDTH_PX, height=PANEL_HEIGHT_PX)
 
 
-def clay_panel(
-    vertices: Vertices, triangles: Triangles, label: str, camera: Camera
-) -> UInt8[np.ndarray, "h w 3"]:
-    """A body of clay before white paper, labelled.
-
-    Parameters
-    ----------
-    vertices, triangles
-        The body, camera frame, metres.
-    label
-        Written into the upper left corner.
-    camera
-        Whose picture the panel is.
-    """
-    levels = coloured_body(vertices, triangles, camera)
-    cv2.putText(
-        levels, label, (12, 24), cv2.FONT_HERSHEY_SIMPLEX, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA
-    )
-    return levels
+def _labelled(levels: UInt8[np.ndarray, "h w 3"], label: str) -> UInt8[np.ndarray, "h w 3"]:
+    """The panel with words in its upper left corner."""
+    font = cv2.FONT_HERSHEY_SIMPLEX
+    return cv2.putText(levels, label, (12, 24), font, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA)
 
 
 def coloured_body(
@@ -205,7 +197,41 @@ def coloured_body(
 ) -> UInt8[np.ndarray, "h w 3"]:
     """A lit body before white paper; vertices in the camera's frame, metres, linear albedo."""
     fine = render_finely(vertices, triangles, camera)
-    lit = np.clip(fine.rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
+    lit = np.clip(_calm_normals(fine.rendering) @ TO_LIGHT, 0.0, 1.0)
     shading = FILL_LIGHT + (1.0 - FILL_LIGHT) * lit
     (levels,) = vertex_pictures([shading[:, None] * colour], fine)
     return levels
+
+
+def _calm_normals(rendering: Rendering) -> Normals:
+    """Normals as of a tailor's dummy: without a face, nipples or genitals.
+
+    Each is the mean of its neighbours', again and again where the mesh is fine.
+    """
+    vertices, normals = rendering.vertices, rendering.vertex_normals
+    first, second = rendering.triangles.ravel(), np.roll(rendering.triangles, -1, axis=1).ravel()
+    shares = 1.0 / np.bincount(first, minlength=len(vertices))[first]
+    around = sparse.csr_array((shares, (first, second)), shape=(len(vertices), len(vertices)))
+    lengths = shares * np.linalg.norm(vertices[first] - vertices[second], axis=1)
+    fine = np.flatnonzero(np.bincount(first, lengths, len(vertices)) < FINE_M)
+    for _ in range(CALM):
+        normals = around @ normals
+    among = around[fine]
+    for _ in range(CALM_FINE):
+        normals[fine] = among @ normals
+    return unit_vectors(normals)
+
+
+def shown_body(
+    vertices: Vertices, triangles: Triangles, camera: Camera, texture: BodyTexture | None
+) -> UInt8[np.ndarray, "h w 3"]:
+    """A body before white paper in its texture's colours, as they are; without one, of clay."""
+    if texture is None:
+        return coloured_body(vertices, triangles, camera)
+    rendering = render(vertices[texture.owners], texture.triangles, finer(camera, SAMPLES))
+    picture = cv2.imdecode(np.frombuffer(texture.picture, np.uint8), cv2.IMREAD_COLOR_RGB)
+    assert picture is not None
+    columns, rows = (shade_image(rendering, each) for each in texture.texels.T * len(picture) - 0.5)
+    levels = np.asarray(cv2.remap(picture, columns, rows, cv2.INTER_LINEAR), dtype=np.uint8)
+    levels[~rendering.silhouette] = 255
+    return cv2.resize(levels, (camera.width, camera.height), interpolation=cv2.INTER_AREA)

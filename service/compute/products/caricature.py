@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import (
     CaricatureOptions,
     CaricatureResult,
@@ -14,6 +15,7 @@ from fitter.export.gltf import plain_glb
 from fitter.export.views import BodyView, preview
 from fitter.person.upright import upright_turn
 from service.compute.products.finished_fit import FinishedFit, Made, Report
+from service.compute.products.pictured_body import texture_for
 
 
 def make(fit: FinishedFit, options: CaricatureOptions, report: Report) -> Made[CaricatureResult]:
@@ -45,6 +47,7 @@ def make(fit: FinishedFit, options: CaricatureOptions, report: Report) -> Made[C
             BodyView(label=f"times {found.factor:g}, side", vertices=exaggerated, degrees=90.0),
         ],
         model.triangles,
+        texture_for(BodyColours.PICTURE, fit),
     )
     return Made(
         result=result,

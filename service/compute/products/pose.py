@@ -67,7 +67,7 @@ def make(fit: FinishedFit, options: PoseOptions, report: Report) -> Made[PoseRes
         ),
         files={
             "body_reposed.glb": reposed_glb(vertices, model, person, options.pose, texture),
-            "pose.png": png(preview(views, model.triangles)),
+            "pose.png": png(preview(views, model.triangles, texture)),
         }
         | texture_files(texture),
     )
