@@ -140,7 +140,7 @@ class AnimationOptions(ProductOptions):
 
     kind: Literal["animation"]
     motion: NamedMotion = Field(
-        default=NamedMotion.WALK,
+        default=NamedMotion.A_POSE,
         description=(
             "What the body does; not read beside a BVH file. `a_pose` and `t_pose` give a rig: one "
             "GLB with bones and skin in that pose, to be moved by another program."

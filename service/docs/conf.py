@@ -33,6 +33,8 @@ html_title = f"Maquette {release}"
 html_math_renderer = "mathml"
 html_show_sourcelink = False
 html_copy_source = False
+html_static_path = ["_static"]
+html_css_files = ["cards.css"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3

@@ -27,7 +27,7 @@ PRODUCTS = (
     {"kind": "pose", "pose": "sitting"},
     {"kind": "texture", "size": 512},
     {"kind": "caricature", "factor": 1.5},
-    {"kind": "animation", "duration_s": 0.2},
+    {"kind": "animation", "motion": "walk", "duration_s": 0.2},
     {"kind": "print"},
     {"kind": "composition"},
 )

@@ -197,7 +197,7 @@ PRODUCTS: Mapping[str, Mapping[str, Any]] = {
         "pose": "standing",
         "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
     },
-    "walk": {"kind": "animation"},
+    "walk": {"kind": "animation", "motion": "walk"},
     "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
     "page": {"kind": "print"},
     "size": {

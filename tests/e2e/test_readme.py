@@ -66,7 +66,7 @@ def test_the_curl_examples_bring_a_result_a_texture_other_formats_and_points(
     assert done.returncode == 0, done.stderr
     assert len(json.loads((clean_root / "points.json").read_text())["points"]) == 21
     assert json.loads((clean_root / "result.json").read_text())["measurements"]
-    for name in ("body_posed.glb", "body_textured.glb"):
+    for name in ("body_reposed.glb", "body_textured.glb"):
         assert (clean_root / name).read_bytes()[:4] == b"glTF"
     assert (clean_root / "body_canonical.obj").read_text().count("\nf ") > 10_000
     assert (clean_root / "body_canonical.stl").stat().st_size > 10_000 * 50

@@ -39,7 +39,7 @@ PRODUCTS: Mapping[str, dict[str, object]] = {
     "texture": {"kind": "texture", "colours": "picture", "size": 512},
     "albedo_texture": {"kind": "texture", "colours": "albedo", "size": 512},
     "pose": {"kind": "pose", "pose": "t_pose"},
-    "animation": {"kind": "animation"},
+    "animation": {"kind": "animation", "motion": "walk"},
     "rig": {"kind": "animation", "motion": "t_pose", "bones": "mixamo"},
     "caricature": {"kind": "caricature", "factor": 1.5},
 }

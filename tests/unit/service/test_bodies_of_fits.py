@@ -33,7 +33,7 @@ def test_the_named_poses_of_the_wire_are_the_fitter_s():
     ("asked", "picture", "count"),
     [
         ({"kind": "pose", "pose": "sitting"}, "pose.png", 1),
-        ({"kind": "animation", "duration_s": 0.2}, "animation.webp", 2),
+        ({"kind": "animation", "motion": "walk", "duration_s": 0.2}, "animation.webp", 2),
     ],
 )
 def test_the_picture_is_on_the_body_in_new_poses(asked, picture, count):
@@ -69,7 +69,7 @@ def _targets(glb):
 
 @pytest.mark.parametrize("kind", ["pose", "animation"])
 def test_a_body_in_a_new_pose_is_plain_if_asked_for_or_if_nothing_is_seen(kind):
-    asked = {"kind": kind} | ({"duration_s": 0.1} if kind == "animation" else {})
+    asked = {"kind": kind} | ({"motion": "walk", "duration_s": 0.1} if kind == "animation" else {})
     plain = made(**asked, colours="plain")
     nowhere = made(files={of_view(0, SEGMENTATION): png(66, 99, level=0)}, **asked)
     for output in (plain, nowhere):
@@ -95,7 +95,7 @@ def test_the_named_motions_of_the_wire_are_the_fitter_s():
 
 
 def test_a_pose_of_the_wire_is_a_rig_with_the_names_and_colours_that_are_asked_for():
-    output = made(kind="animation", motion="a_pose", bones="unreal")
+    output = made(kind="animation", bones="unreal")
     assert set(output.files) == {"body_skinned.glb", "texture.jpg"}
     nodes = read_glb(output.files["body_skinned.glb"]).document["nodes"]
     assert {"pelvis", "clavicle_l", "calf_r"} < {node["name"] for node in nodes}
@@ -104,7 +104,9 @@ def test_a_pose_of_the_wire_is_a_rig_with_the_names_and_colours_that_are_asked_f
 
 def test_a_body_goes_its_way_only_if_that_is_asked_for():
     far, near = (
-        made(kind="animation", duration_s=1, in_place=here).files["motion.bvh"].splitlines()
+        made(kind="animation", motion="walk", duration_s=1, in_place=here)
+        .files["motion.bvh"]
+        .splitlines()
         for here in (False, True)
     )
     ways = [[float(lines[at].split()[2]) for at in (-30, -1)] for lines in (far, near)]
@@ -128,7 +130,9 @@ def test_a_body_moves_as_the_named_motion_says():
 
 @pytest.mark.parametrize(("duration_s", "frames"), [(0.001, 1), (0.2, 6)])
 def test_a_walk_is_as_long_as_it_is_asked_to_be(duration_s: float, frames: int):
-    result = made(kind="animation", start_s=100.0, duration_s=duration_s).result.model_dump()
+    result = made(
+        kind="animation", motion="walk", start_s=100.0, duration_s=duration_s
+    ).result.model_dump()
     assert (result["frames"], result["warnings"]) == (frames, ())
 
 
