@@ -38,34 +38,33 @@ OWNERS_SHARE: Final = 100
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
 Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
 
-ITEMS: Final = "x-itemSchema"
-"""OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 this needs an extension."""
-
-_STREAM: Final[dict[str, Any]] = {
-    "description": "Events until the fit ends: its last `state`, and `end`, which repeats it.",
-    "content": {
-        "text/event-stream": {
-            "schema": {"type": "string"},
-            ITEMS: {
-                "type": "object",
-                "required": ["event", "data", "id"],
-                "properties": {
-                    "event": {"type": "string", "enum": [kind.value for kind in EventKind]},
-                    "data": {
-                        "type": "string",
-                        "contentMediaType": "application/json",
-                        "contentSchema": {"$ref": "#/components/schemas/EventData"},
-                    },
-                    "id": {"type": "string"},
-                    "retry": {"type": "integer"},
-                },
-            },
-        }
+_EVENT: Final = {
+    "type": "object",
+    "required": ["event", "data", "id"],
+    "properties": {
+        "event": {"type": "string", "enum": [kind.value for kind in EventKind]},
+        "data": {
+            "type": "string",
+            "contentMediaType": "application/json",
+            "contentSchema": {"$ref": "#/components/schemas/EventData"},
+        },
+        "id": {"type": "string"},
+        "retry": {"type": "integer"},
     },
 }
-
 EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
-    200: _STREAM,
+    200: {
+        "description": "Events until the fit ends: its last `state`, and `end`, which repeats it.",
+        "content": {
+            "text/event-stream": {
+                "schema": {
+                    "type": "string",
+                    "contentMediaType": "text/event-stream",
+                    "contentSchema": {"type": "array", "items": _EVENT},
+                }
+            }
+        },
+    },
     204: {
         "description": "The fit has ended, and there is no event after `Last-Event-ID`: an "
         "`EventSource` does not reconnect."

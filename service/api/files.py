@@ -51,6 +51,9 @@ PICTURES: Final = (JPEG, "image/png", "image/webp", "image/heic")
 TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
 """Files next to a textured mesh, to which its material refers."""
 
+OCTETS: Final = "application/octet-stream"
+"""What any file comes as if it is asked for by name: some generated clients know no other."""
+
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
@@ -59,14 +62,14 @@ NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
 IfNoneMatch = Annotated[str | None, Header()]
 
 # OpenAPI ignores headers of this name: the responses' media types say enough.
-AcceptHeader = Annotated[str | None, Header(alias="Accept", include_in_schema=False)]
+AcceptHeader = Annotated[str, Header(alias="Accept", include_in_schema=False)]
 
 
 @dataclass(frozen=True, slots=True)
 class FileHeaders:
     """The headers that say how a file is wanted."""
 
-    accept: AcceptHeader = None
+    accept: AcceptHeader = ""
     if_none_match: IfNoneMatch = None
 
 
@@ -97,7 +100,7 @@ def file_answers(*media_types: str, problems: Sequence[str]) -> dict[int | str, 
     ``problems`` are those that may keep a caller from what has the file.
     """
     meshes = (GLB, *MESH_FORMATS.values(), *MATERIAL.values())
-    content = dict.fromkeys((*media_types, *meshes, CSV), BINARY)
+    content = dict.fromkeys((OCTETS, *media_types, *meshes, CSV), BINARY)
     return (
         {
             200: {
@@ -120,15 +123,13 @@ class Rendition:
     """A file that can be requested.
 
     ``source`` is the stored file that it is or is written from; ``mesh_format`` is the ending of a
-    mesh that is not stored. ``tag`` identifies its bytes; ``by_accept`` says that the answer
-    depends on the Accept header.
+    mesh that is not stored. ``tag`` identifies its bytes.
     """
 
     media_type: str
     tag: str
     source: StoredBlob
     mesh_format: str | None = None
-    by_accept: bool = False
 
 
 def as_stored(file: StoredBlob) -> Rendition:
@@ -137,7 +138,7 @@ def as_stored(file: StoredBlob) -> Rendition:
 
 
 def chosen_rendition(
-    files: Mapping[str, StoredBlob], name: str, *, state: JobState, accept: str | None
+    files: Mapping[str, StoredBlob], name: str, *, state: JobState, accept: str
 ) -> Rendition:
     """Find a file by its name; a picture that was sent, as ``accept`` names it.
 
@@ -156,13 +157,12 @@ def chosen_rendition(
     return there_are[name]
 
 
-def picture_rendition(picture: StoredBlob, *, accept: str | None) -> Rendition:
+def picture_rendition(picture: StoredBlob, *, accept: str) -> Rendition:
     """A picture as it was sent, or as a JPEG where that alone is named as accepted."""
     sent, tag = picture.media_type, picture.digest
-    named = accept or ""
-    if JPEG in named and not any(kind in named for kind in (sent, "image/*", "*/*")):
-        return Rendition(media_type=JPEG, tag=f"{tag}-jpeg", source=picture, by_accept=True)
-    return Rendition(media_type=sent, tag=tag, source=picture, by_accept=True)
+    if JPEG in accept and not any(kind in accept for kind in (sent, "image/*", "*/*")):
+        return Rendition(media_type=JPEG, tag=f"{tag}-jpeg", source=picture)
+    return Rendition(media_type=sent, tag=tag, source=picture)
 
 
 def renditions(files: Mapping[str, StoredBlob]) -> Iterator[tuple[str, Rendition]]:
@@ -200,16 +200,16 @@ async def answer_file(
     context: ApiContext, scope: str, rendition: Rendition, wanted: Wanted
 ) -> Response:
     """Answer with a file of a scope, unless the client has it already."""
-    headers = {"ETag": f'"{rendition.tag}"'}
-    if rendition.by_accept:
-        headers["Vary"] = "Accept"
+    headers = {"ETag": f'"{rendition.tag}"', "Vary": "Accept"}
     if rendition.media_type == HTML:
         headers["Content-Security-Policy"] = STAND_ALONE
     if is_known(rendition.tag, wanted.if_none_match):
         return Response(status_code=304, headers=headers)
     stored = await stored_content(context.blobs, scope, rendition.source)
     content = await _converted(context, stored, rendition)
-    return Response(content, media_type=rendition.media_type, headers=headers)
+    kind, accept = rendition.media_type, wanted.accept
+    sent_as = OCTETS if OCTETS in accept and kind not in accept else kind
+    return Response(content, media_type=sent_as, headers=headers)
 
 
 async def _converted(context: ApiContext, stored: bytes, rendition: Rendition) -> bytes:

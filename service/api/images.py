@@ -14,6 +14,7 @@ from service.api.context import ApiContext, Context
 from service.api.files import (
     BINARY,
     NOT_MODIFIED,
+    OCTETS,
     PICTURES,
     Wanted,
     answer_file,
@@ -42,7 +43,7 @@ ROUTER: Final = APIRouter(prefix=PATH, tags=["images"])
 
 _PARTS: Final = {IMAGE: Part(description="JPEG, PNG, WebP or HEIC.", least=1)}
 _PICTURE: Final[dict[int | str, dict[str, Any]]] = {
-    200: {"description": "The file.", "content": dict.fromkeys(PICTURES, BINARY)}
+    200: {"description": "The file.", "content": dict.fromkeys((OCTETS, *PICTURES), BINARY)}
 }
 _LOCATION: Final = {
     "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}

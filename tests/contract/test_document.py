@@ -14,7 +14,6 @@ from api_schemas.jobs import EventData
 from api_schemas.picture import ViewRequest
 from api_schemas.questions import InitialPoseRequest, PointsRequest
 from service.api.app import openapi_text
-from service.api.events import ITEMS
 from tests.contract.document import EXPORTED, exported, media_types, operations, validator, whole
 
 DOCUMENT = whole(exported())
@@ -136,7 +135,7 @@ def test_every_body_has_an_example_but_those_that_are_no_text():
 
 def test_the_example_of_the_event_stream_is_a_stream_of_events():
     content = DOCUMENT["paths"]["/v1/fits/{fit_id}/events"]["get"]["responses"]["200"]["content"]
-    item = validator(content["text/event-stream"][ITEMS], DOCUMENT)
+    item = validator(content["text/event-stream"]["schema"]["contentSchema"]["items"], DOCUMENT)
     (example,) = content["text/event-stream"]["examples"].values()
     _, *events = example["value"].rstrip("\n").split("\n\n")
     for event in events:

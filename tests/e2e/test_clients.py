@@ -59,7 +59,6 @@ def test_a_generated_python_client_measures_the_pair(service: httpx.Client, tmp_
     written = run(
         *(TOOLS / "openapi-python-client", "generate", "--meta", "none"),
         *("--path", EXPORTED, "--output-path", tmp_path / "maquette_client"),
-        *("--config", CLIENTS / "python" / "generator.yaml"),
         cwd=tmp_path,
     )
     assert "Warning" not in written, written
