@@ -1,6 +1,7 @@
 // How limbs stand out on the body that is drawn, and how it takes another shape.
 import { BufferAttribute } from "three";
 import type { Mesh } from "three";
+import { calmNormals } from "../viewer/calm";
 import type { GlbBody } from "../viewer/glb";
 import type { Flips, TurnedLimb } from "./flips";
 import { TURNED_LIMBS } from "./flips";
@@ -20,9 +21,10 @@ export function markLimbs(mesh: Mesh, pointedAt: TurnedLimb | null, flips: Flips
 }
 
 /** The same mesh with other places: those of `body`. */
-export function reshape(mesh: Mesh, { positions, normals }: GlbBody): void {
+export function reshape(mesh: Mesh, { positions, normals, triangles }: GlbBody): void {
   own(mesh, "position", positions, 3);
   own(mesh, "normal", normals, 3);
+  own(mesh, "calm", calmNormals({ positions, normals, triangles }), 3);
   // What a ray is tried against first.
   mesh.geometry.computeBoundingSphere();
 }

@@ -6,6 +6,7 @@ import type { Flips, TurnedLimb } from "../flip/flips";
 import { facingOf } from "./facing";
 import { fittedProjection } from "./fittedCamera";
 import { Floor } from "./Floor";
+import { calmNormals } from "./calm";
 import type { GlbBody } from "./glb";
 import { bodyPart } from "./bodyPart";
 import type { Part } from "./bodyPart";
@@ -105,7 +106,7 @@ export class BodyScene {
     const shape = other ?? this.upright;
     if (!this.canonical || !shape) return;
     const { geometry } = this.canonical.mesh;
-    for (const [name, values] of [["position", shape.positions], ["normal", shape.normals]] as const) {
+    for (const [name, values] of [["position", shape.positions], ["normal", shape.normals], ["calm", calmNormals(shape)]] as const) {
       const attribute = geometry.getAttribute(name) as BufferAttribute;
       attribute.array = values;
       attribute.needsUpdate = true;

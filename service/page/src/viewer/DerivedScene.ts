@@ -15,6 +15,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { Floor } from "./Floor";
+import { calmNormals } from "./calm";
 import type { GlbBody, GlbCamera } from "./glb";
 import { momentOf } from "./motion";
 import type { Motion } from "./motion";
@@ -58,7 +59,7 @@ export class DerivedScene {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(0, 0);
-    this.mesh = new Mesh(geometryOf(body), materialOf(body, image));
+    this.mesh = new Mesh(geometryOf(image ? body : { ...body, normals: calmNormals(body) }), materialOf(body, image));
     // Not its vertices: they are others' as well.
     if (body.upright) this.mesh.quaternion.fromArray(body.upright);
     this.table = new Turntable(canvas, () => this.draw());

@@ -1,6 +1,7 @@
 // A body as the mesh that WebGL draws, with all its surface is drawn by.
 import { BufferAttribute, BufferGeometry, Mesh, Vector3 } from "three";
 import type { ShaderMaterial } from "three";
+import { calmNormals } from "./calm";
 import type { GlbBody } from "./glb";
 import { surfaceMaterial } from "./surface";
 import type { Standing } from "./Turntable";
@@ -18,6 +19,7 @@ export function bodyPart(shown: GlbBody, posed: GlbBody): Part {
     geometry.setAttribute(name, new BufferAttribute(values, width));
   add("position", shown.positions, 3);
   add("normal", shown.normals, 3);
+  add("calm", calmNormals(shown), 3);
   add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
   add("specularity", shown.specularity ?? grey(0, 1), 1);
   add("mark", grey(0, 2), 2);

@@ -6,6 +6,7 @@ export const SURFACES = ["clay", "lit", "albedo", "specularity", "shading"] as c
 export type Surface = (typeof SURFACES)[number];
 
 const VERTEX = /* glsl */ `
+  in vec3 calm;
   in vec3 tint;
   in float specularity;
   in vec2 mark;
@@ -15,12 +16,14 @@ const VERTEX = /* glsl */ `
   out vec3 vTint;
   out float vSpecularity;
   out vec3 vSeenNormal;
+  uniform int surface;
   void main() {
-    vSeenNormal = normalMatrix * normal;
+    vSeenNormal = normalMatrix * (surface == 0 ? calm : normal);
     vPosition = position;
     vNormal = normal;
     vTint = tint;
-    vSpecularity = specularity;
+    // Cloth that was taken for skin would be chrome; skin has at most 0.1.
+    vSpecularity = min(specularity, 0.15);
     vMark = mark;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }

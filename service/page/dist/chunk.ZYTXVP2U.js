@@ -1,4 +1,5 @@
 import{A as t,c as o,g as i,k as a}from"/page/chunk.DKD75HTU.js";var v=["clay","lit","albedo","specularity","shading"],n=`
+  in vec3 calm;
   in vec3 tint;
   in float specularity;
   in vec2 mark;
@@ -8,12 +9,14 @@ import{A as t,c as o,g as i,k as a}from"/page/chunk.DKD75HTU.js";var v=["clay","
   out vec3 vTint;
   out float vSpecularity;
   out vec3 vSeenNormal;
+  uniform int surface;
   void main() {
-    vSeenNormal = normalMatrix * normal;
+    vSeenNormal = normalMatrix * (surface == 0 ? calm : normal);
     vPosition = position;
     vNormal = normal;
     vTint = tint;
-    vSpecularity = specularity;
+    // Cloth that was taken for skin would be chrome; skin has at most 0.1.
+    vSpecularity = min(specularity, 0.15);
     vMark = mark;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }
