@@ -39,9 +39,9 @@ test-rest: $(STAMP)
 test-shapes: $(STAMP)
 	$(PYTEST) -m shapes $(CHECKED)
 
-# All tests that `make test-shapes` does not run: so CI runs each once.
+# All tests that `make test-shapes` does not run: so CI runs each once. They wait more than they compute.
 test-others: $(STAMP)
-	$(PYTEST) -m "not shapes"
+	$(PYTEST) --numprocesses 3 -m "not shapes"
 
 # What other runs do in part, at length: cases of the contract, damaged inputs, killed processes.
 test-long: $(STAMP)
