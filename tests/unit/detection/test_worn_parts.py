@@ -75,11 +75,11 @@ def test_maps_are_what_the_perceptron_says_of_enlarged_maps(
     values = np.concatenate([cv2.resize(each, size) for each in seen.maps], axis=2)
     rows, columns = np.indices(size)
     read = seen.at(rows.ravel(), columns.ravel())
-    assert read.reshape(values.shape) == pytest.approx(values, abs=1e-5)
+    np.testing.assert_allclose(read.reshape(values.shape), values, atol=1e-5)
     for number, (weights, biases) in enumerate(zip(head.weights, head.biases, strict=True)):
         values = (np.maximum(values, 0.0) if number else values) @ weights + biases
     shares = np.exp(values) / np.exp(values).sum(axis=2, keepdims=True)
-    assert head.probabilities(seen) == pytest.approx(shares, abs=1e-4)
+    np.testing.assert_allclose(head.probabilities(seen), shares, atol=1e-4)
 
 
 def test_probabilities_add_up_and_all_beyond_the_crop_is_background(

@@ -59,6 +59,7 @@ def breadth_cm(person: Mask, share: float) -> float:
     return float(100.0 * across * AWAY_M / CAMERA.focal_length_px)
 
 
+@pytest.mark.slow
 def test_outer_garments_add_as_much_to_the_outline_as_real_ones():
     ahead, place = np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, AWAY_M])
     added: list[np.ndarray] = []

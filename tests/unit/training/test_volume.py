@@ -158,6 +158,7 @@ def test_bodies_that_were_asked_for_keep_their_volume():
     assert after < 0.4 * before
 
 
+@pytest.mark.slow
 def test_the_skin_hardly_moves():
     first, second = ScapeEvaluator(model()), ScapeEvaluator(learned())
     moved = [
