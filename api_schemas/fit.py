@@ -82,8 +82,8 @@ class FitRequest(Person):
     force: bool = Field(
         default=False,
         description=(
-            "Give measurements even if the verdict is `implausible` or `no_person`; otherwise they "
-            "are withheld."
+            "Give measurements even if the verdict is `implausible` or `no_person`, and those that "
+            "are hardly known; otherwise they are withheld."
         ),
     )
     paper: PaperMethod | None = Field(

@@ -163,7 +163,8 @@ class FitResult(WireModel):
     measurements: tuple[Measurement, ...] = Field(
         description=(
             "Empty, as in the stages, where the verdict is `implausible` or `no_person` and the "
-            "request did not `force` them."
+            "request did not `force` them; without those that a warning, `measurements-withheld`, "
+            "names in `where`: their ranges would be wider than those of all people as tall."
         )
     )
     shape: tuple[float, ...]

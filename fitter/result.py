@@ -157,8 +157,8 @@ class FitResult:
     canonical_vertices, triangles
         The body in the canonical pose, body frame, metres; the triangles of its vertices.
     measurements
-        Empty where a finding of a picture blocks and the request does not insist; with wider
-        standard errors where findings harm.
+        Empty where a finding of a picture blocks and the request does not insist, without what a
+        warning says is hardly known; with wider standard errors where findings harm.
     given
         Names of the measurements the request gave, its height as stature.
     energies

@@ -1,4 +1,4 @@
-"""Widening of a shape's errors by what harms a picture: one table, by finding.
+"""Widening of a shape's errors by what harms a picture, and what is then hardly known.
 
 For light, blur and size the factors are the root mean squares of errors over standard errors on
 spoilt pictures of 14 people of the tuning halves, 84 fits with shading: they make them one again.
@@ -18,8 +18,13 @@ from jaxtyping import Float
 
 from fitter.arrays import Shape
 from fitter.measurement.anthropometry import MeasuringBody, measurement_jacobian
-from fitter.vocabulary.measurements import STATURE, WEIGHT
-from fitter.vocabulary.remarks import Code, Remark, Severity
+from fitter.measurement.definitions import Measurement
+from fitter.population.body_estimate import estimate_body
+from fitter.population.conditional_shape import MeasuredPopulation
+from fitter.population.known_person import KnownPerson
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE, STATURE, WEIGHT
+from fitter.vocabulary.remarks import Code, Note, Remark, Severity, remark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,3 +139,38 @@ def _factor(of: Callable[[Harm], float], pictures: Sequence[Sequence[Remark]]) -
         ),
         default=1.0,
     )
+
+
+_SHOWN: Final = 0.1
+"""Centimetres or kilograms to which measurements are shown."""
+
+
+def hardly_known(
+    measurements: Sequence[Measurement],
+    population: MeasuredPopulation,
+    known: KnownPerson,
+    findings: Collection[Remark],
+) -> tuple[Remark, ...]:
+    """Warning that names what a picture says less of than gender and height do, if anything.
+
+    That is what was not given and has a standard error above the people's own spread, both with
+    what shapes leave unexplained. Only where clothes or findings widen errors: elsewhere it is true
+    of crotch rises alone, of which no picture says anything.
+    """
+    if not any(found.code in HARM or found.code == Code.CLOTHES_LOOSE for found in findings):
+        return ()
+    height = KnownMeasurement(value=CENTIMETRES_PER_METRE * known.height_m)
+    people = estimate_body(population, {STATURE: height} if STATURE in known.given else {})
+    spreads = np.hypot(
+        [each.standard_error or 0.0 for each in people.measurements], population.body.unexplained
+    )
+    names = [
+        each.name
+        for each, spread in zip(measurements, spreads, strict=True)
+        if each.name not in known.given and (each.standard_error or 0.0) > spread + _SHOWN
+    ]
+    reason = (
+        "Withheld, for their 95 % ranges are wider than those of all people of the gender and "
+        f"height: {', '.join(names)}."
+    )
+    return (remark(Note.MEASUREMENTS_WITHHELD, reason, where=names),) if names else ()

@@ -1,6 +1,6 @@
 """The paper on one page: from pictures and clicks to a measured, posed and lit body."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -10,7 +10,7 @@ from fitter.energies.shape_terms import population_prior
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing_report import clothing_warnings, with_what_clothes_cost
 from fitter.fits.equipment import PACKAGED, Equipment
-from fitter.fits.error_widening import widened_covariance
+from fitter.fits.error_widening import hardly_known, widened_covariance
 from fitter.fits.outline_search import PictureSearch, Subject, search_outline
 from fitter.fits.paper import (
     differences,
@@ -109,24 +109,30 @@ def fit(
             [each.person.body for each in people],
         )
         views = _views(request, pictures, found, people)
-    if not (request.choices.force or all(each.is_plausible for each in people)):
-        measurements = ()
-        stages = [replace(stage, measurements=()) for stage in stages]
+    hardly, withheld = (), set[str]()
+    if not request.choices.force:
+        findings = [found for each in people for found in each.findings]
+        hardly = hardly_known(measurements, population, known, findings)
+        withheld = {name for each in hardly for name in each.where}
+        if not all(each.is_plausible for each in people):
+            hardly, withheld = (), {each.name for each in measurements}
     return FitResult(
         views=views,
         shape=shape,
         shape_covariance=covariance,
         canonical_vertices=stages[-1].canonical_vertices,
         triangles=subject.prepared.operators.model.triangles,
-        measurements=measurements,
+        measurements=_without(withheld, measurements),
         given=known.given,
         optimizer=request.choices.optimizer,
         energies=found.minimum.candidate.energies,
         evaluations=found.evaluations + sum(each.evaluations for each in pictures),
-        stages=tuple(stages),
+        stages=tuple(
+            replace(each, measurements=_without(withheld, each.measurements)) for each in stages
+        ),
         alone=alone,
         assumptions=known.assumptions,
-        warnings=known.warnings + warnings,
+        warnings=known.warnings + warnings + hardly,
         stage_seconds=clock.seconds,
         differences=() if paper is None else differences(request.choices),
     )
@@ -244,6 +250,12 @@ def _with_cost_of_clothes(
         replace(each, findings=with_what_clothes_cost(each.findings, each.clothing, waist, weighed))
         for each in people
     )
+
+
+def _without(
+    withheld: Collection[str], measurements: Sequence[Measurement]
+) -> tuple[Measurement, ...]:
+    return tuple(each for each in measurements if each.name not in withheld)
 
 
 def _stages(

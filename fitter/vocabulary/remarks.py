@@ -75,6 +75,7 @@ class Note(StrEnum):
     GIVEN_CONTRADICTED = "given-contradicted"
     DIFFERENT_PEOPLE = "different-people"
     SHADING_NOT_USED = "shading-not-used"
+    MEASUREMENTS_WITHHELD = "measurements-withheld"
     SEEN_FROM_BEHIND = "seen-from-behind"
     LIMBS_CROSSED = "limbs-crossed"
     UP_UNCERTAIN = "up-uncertain"
@@ -159,6 +160,10 @@ REMEDIES: Final[Mapping[Code | Note, str]] = {
     Note.GIVEN_CONTRADICTED: "Check this value and the height, and their units.",
     Note.DIFFERENT_PEOPLE: "Check that view and its points, and left and right in it.",
     Note.SHADING_NOT_USED: "Nothing is lost where the girths alone count.",
+    Note.MEASUREMENTS_WITHHELD: (
+        "Send the weight if it was not sent: it narrows girths most. Else do what the findings "
+        "say; `force` gives them as they are."
+    ),
     Note.SEEN_FROM_BEHIND: _SIDES,
     Note.LIMBS_CROSSED: _SIDES,
     Note.UP_UNCERTAIN: "If that is wrong, as for a person who lies, send `up`.",
