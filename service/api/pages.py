@@ -119,6 +119,12 @@ def page(request: Request, accept: Annotated[str, Header()] = "*/*") -> Response
     return Response(index.model_dump_json(), media_type="application/json", headers=headers)
 
 
+@ROUTER.get("/try")
+def trial() -> Response:
+    """Lead to the page's view for developers."""
+    return RedirectResponse("/#/try", status_code=307)
+
+
 @ROUTER.get("/docs")
 def swagger() -> Response:
     """Return the page of Swagger UI."""

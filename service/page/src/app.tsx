@@ -4,7 +4,7 @@ import { entries, fits } from "./history/store";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
 import { Start } from "./start/Start";
-import { START_ADDRESS, isOnAccuracy, isPreparing, openFit } from "./route";
+import { START_ADDRESS, TRY_ADDRESS, isOnAccuracy, isPreparing, isTrying, openFit } from "./route";
 import { messages } from "./messages";
 import { isFull } from "./stage/full";
 import { announcement } from "./ui/announce";
@@ -16,6 +16,7 @@ import { theme, toggleTheme } from "./ui/theme";
 
 const AccuracyView = later(() => import("./accuracy/AccuracyView").then((loaded) => loaded.AccuracyView));
 const HistoryPanel = later(() => import("./history/HistoryPanel").then((loaded) => loaded.HistoryPanel), null);
+const TryView = later(() => import("./try/TryView").then((loaded) => loaded.TryView));
 const Workbench = later(() => import("./panel/Workbench").then((loaded) => loaded.Workbench));
 
 export function App() {
@@ -45,6 +46,9 @@ export function App() {
             {frame.history}
             {entries.value.length > 0 && <span class={`badge ${active > 0 ? "is-active" : ""}`}>{entries.value.length}</span>}
           </button>
+          <a class="head-link is-wide-only" href={TRY_ADDRESS}>
+            {messages.trying.title}
+          </a>
           <a class="head-link is-wide-only" href="/documentation/">
             {frame.documentation}
           </a>
@@ -65,5 +69,6 @@ function Screen() {
   const fit = openFit.value;
   if (fit) return <FitView key={fit} id={fit} />;
   if (isOnAccuracy.value) return <AccuracyView />;
+  if (isTrying.value) return <TryView />;
   return isPreparing.value ? <Workbench /> : <Start />;
 }

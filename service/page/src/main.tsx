@@ -6,7 +6,7 @@ import { startLive } from "./draft/live";
 import { listenForPaste } from "./draft/open";
 import { startFollowing } from "./draft/proposing";
 import { startMasks } from "./mask/edits";
-import { isOnAccuracy, openFit } from "./route";
+import { isOnAccuracy, isTrying, openFit } from "./route";
 import { startFilling } from "./stage/full";
 import { announce } from "./ui/announce";
 
@@ -18,7 +18,7 @@ startFilling();
 listenForPaste();
 // What was announced on one screen is not said on the next.
 effect(() => {
-  void [openFit.value, isOnAccuracy.value];
+  void [openFit.value, isOnAccuracy.value, isTrying.value];
   announce("");
 });
 render(<App />, document.getElementById("page")!);

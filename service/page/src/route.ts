@@ -1,5 +1,5 @@
 // Where the page is, by the address's fragment: `#/` is its start, `#/prepare` prepares a fit, `#/fits/ID` shows one;
-// `#/accuracy` tells how good measurements are.
+// `#/accuracy` tells how good measurements are, `#/try` is for developers.
 import { computed, signal } from "@preact/signals";
 
 const fragment = signal(location.hash);
@@ -15,6 +15,9 @@ export const isPreparing = computed(() => fragment.value === PREPARE_ADDRESS);
 
 export const ACCURACY_ADDRESS = "#/accuracy";
 export const isOnAccuracy = computed(() => fragment.value === ACCURACY_ADDRESS);
+
+export const TRY_ADDRESS = "#/try";
+export const isTrying = computed(() => fragment.value === TRY_ADDRESS);
 
 export function fitAddress(id: string): string {
   return `#/fits/${id}`;

@@ -105,9 +105,7 @@ def test_bodies_are_shown_on_the_stage_and_left_for_the_fit(
 def test_what_is_no_motion_is_told(looking: Visitor):
     page = looking.page
     looking.choose("Animation")
-    page.get_by_label("Choose a BVH file").set_input_files(
-        {"name": "dance.bvh", "mimeType": "text/plain", "buffer": b"no motion"}
-    )
+    choose(page, "Choose a BVH file", b"no motion", "dance.bvh")
     expect(page.get_by_text("It moves as dance.bvh says.")).to_be_visible()
     page.get_by_role("button", name="Create the animation").click()
     expect(page.get_by_role("alert")).to_contain_text("HIERARCHY", timeout=FIT_WITHIN_MS)

@@ -1,6 +1,10 @@
 """The first screen, and the page without a connection."""
 
+import json
 import re
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -27,31 +31,42 @@ def test_the_first_screen_tells_all_without_scrolling(
             page.get_by_role("button", name="The body found in the first sample"),
         ):
             expect(told).to_be_in_viewport()
+        # A phone is not told to drop pictures.
+        take = page.get_by_label("Take or choose a picture", exact=True)
+        expect(take).to_have_count(int(device is PHONE))
+        expect(page.get_by_text("drop a picture here")).to_have_count(int(device is DESK))
 
 
-def test_a_phone_is_not_told_to_drop_pictures(browser: Browser, service: httpx.Client):
-    for device, is_phone in ((DESK, False), (PHONE, True)):
-        with Visitor.at(browser, str(service.base_url), device) as visitor:
-            page = visitor.page
-            take = page.get_by_label("Take or choose a picture", exact=True)
-            expect(take).to_have_count(1 if is_phone else 0)
-            expect(page.get_by_text("drop a picture here")).to_have_count(0 if is_phone else 1)
-
-
-def test_the_figures_are_a_link_away(browser: Browser, service: httpx.Client, axe: str):
-    with Visitor.at(browser, str(service.base_url)) as visitor:
-        page = visitor.page
-        page.get_by_role("link", name="All figures").click()
-        expect(page.get_by_role("row", name=re.compile("^Front and side 1"))).to_be_visible()
-        assert serious_findings(page, axe) == []
-        page.get_by_role("link", name="Choose a picture").click()
-        expect(page.get_by_role("heading", name="Your measurements and your body")).to_be_visible()
-
-
-def test_the_body_turns_and_can_be_held(visitor: Visitor):
+def test_the_figures_are_a_link_away(visitor: Visitor, axe: str):
     page = visitor.page
-    page.emulate_media(reduced_motion="no-preference")
+    page.get_by_role("link", name="All figures").click()
+    expect(page.get_by_role("row", name=re.compile("^Front and side 1"))).to_be_visible()
+    assert serious_findings(page, axe) == []
+    page.get_by_role("link", name="Choose a picture").click()
+    expect(page.get_by_role("heading", name="Your measurements and your body")).to_be_visible()
+
+
+def test_developers_see_what_programs_get(visitor: Visitor, axe: str, tmp_path: Path):
+    page = visitor.page
+    page.goto(f"{visitor.origin}/try")
+    page.get_by_role("button", name="Send the sample").click()
+    expect(page.get_by_role("img", name="Body")).to_have_attribute("data-shows", re.compile("."))
+    assert serious_findings(page, axe) == []
+    shown = json.loads(page.get_by_label("Response", exact=True).input_value())["measurements"]
+    node = ("node", "--input-type=module", "-e")
+    programs = {"curl": ("bash", "-c"), "fetch": node, "Python": (sys.executable, "-c")}
+    for name, program in programs.items():
+        visitor.choose(name)
+        text = page.locator("textarea").nth(1).input_value()
+        told = subprocess.run((*program, text), cwd=tmp_path, stdout=subprocess.PIPE, check=True)
+        assert json.loads(told.stdout)["measurements"] == shown
+
+
+def test_the_body_turns_unless_motion_is_unwanted_and_can_be_held(visitor: Visitor):
+    page = visitor.page
     strip = page.locator(".turning-strip")
+    expect(strip).to_have_css("animation-name", "none")
+    page.emulate_media(reduced_motion="no-preference")
     first = strip.evaluate(MOVED)
     page.wait_for_function(
         "([strip, first]) => getComputedStyle(strip).transform !== first",
@@ -62,12 +77,6 @@ def test_the_body_turns_and_can_be_held(visitor: Visitor):
     expect(strip).to_have_css("animation-play-state", "paused")
     figure.click()
     expect(strip).to_have_css("animation-play-state", "running")
-
-
-def test_whoever_wants_little_motion_sees_it_stand(visitor: Visitor):
-    page = visitor.page
-    page.emulate_media(reduced_motion="reduce")
-    expect(page.locator(".turning-strip")).to_have_css("animation-name", "none")
 
 
 NO_CONNECTION = "You are offline."

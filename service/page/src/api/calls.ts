@@ -39,6 +39,14 @@ export function submitFit(asked: FitRequest): Promise<Fit> {
   return requestJson("/v1/fits", jsonBody(asked));
 }
 
+/** A picture with its `request`, in one call as programs make it. */
+export function postFit(picture: Blob, asked: string, signal: AbortSignal): Promise<Fit> {
+  const form = new FormData();
+  form.append("image", picture);
+  form.append("request", asked);
+  return requestJson("/v1/fits", { method: "POST", body: form, headers: { Prefer: "wait=60" }, signal });
+}
+
 export function getFit(id: string): Promise<Fit> {
   return requestJson(`/v1/fits/${id}`);
 }

@@ -17,5 +17,6 @@ import { points } from "./points";
 import { result } from "./result";
 import { stage } from "./stage";
 import { start } from "./start";
+import { trying } from "./trying";
 
-export const messages = { accuracy, answers, files, fit, frame, howto, limbs, look, mask, measure, measures, panel, person, points, products, result, stage, start } as const;
+export const messages = { accuracy, answers, files, fit, frame, howto, limbs, look, mask, measure, measures, panel, person, points, products, result, stage, start, trying } as const;
