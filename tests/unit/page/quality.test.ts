@@ -41,3 +41,10 @@ test("what helps most is told first, what nobody can mend last, and nothing twic
   ]);
   assert.equal(notesOf(of({ outcome: "poor_fit" }, { verdict: "implausible" }))[0]!.code, "implausible");
 });
+
+test("what is withheld is named as it is labelled, what most people ask for alone", () => {
+  const withheld = { ...remark("measurements-withheld"), where: ["weight", "waist_girth_smallest", "elbow_girth"] };
+  const [note] = notesOf(of({}, { warnings: [withheld] }));
+  assert.match(note!.text, /^Left out: Weight and Waist, smallest, as /);
+  assert.equal(note!.deed, "adjust");
+});

@@ -8,6 +8,7 @@ import { viewTitles } from "../messages/viewNames";
 import { plainName, wordFor } from "../messages/words";
 import { remarked } from "../ui/answered";
 import { contradictionOf } from "./quality";
+import { isChief, measureLabel } from "./reading";
 
 /** Correct what was said, take another picture, or say which way limbs slant. */
 export type Deed = "adjust" | "another" | "limbs";
@@ -83,6 +84,9 @@ function ofRemark(remark: Remark, number: number | null, result: FitResult): Not
     "lens-assumed": () => assumed.lens(measured(lensMm(view), "millimeter")),
     "height-assumed": () => assumed.height(heightInWords(result.height_m, person.value.units)),
     "points-proposed": () => assumed.points(remark.where.length),
+    "measurements-withheld": () => messages.result.leftOut(listed(remark.where.filter(isChief).map(measureLabel))),
+    // What was taken off, and how well the waist is known.
+    "clothes-loose": () => `${remark.reason} ${remark.remedy}`,
   };
   const text = words[remark.code]?.() ?? withTitles(remarked(remark), result.views);
   return noteOf(remark.code, text, number, { isProblem: remark.severity === "blocks" });
