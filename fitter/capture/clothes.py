@@ -42,8 +42,8 @@ def clothes(capture: Capture) -> Remark | None:
         return None
     return remark(
         Code.CLOTHES_LOOSE,
-        f"{what_is_loose(capture.clothing)}, with a probability of "
-        f"{100.0 * min(loose.values()):.0f} %: the body under them is estimated.",
+        f"Loose clothes cover {_listed([_WORDS[region] for region in loose])}, with a "
+        f"probability of {100.0 * min(loose.values()):.0f} %: the body under them is estimated.",
         severity=Severity.HARMS,
         where=tuple(
             f"{side}_{joint}"
@@ -52,11 +52,6 @@ def clothes(capture: Capture) -> Remark | None:
             for side in ("left", "right")
         ),
     )
-
-
-def what_is_loose(clothing: Sequence[WornRegion]) -> str:
-    """The beginning of a sentence: what loose clothes cover, of which there are some."""
-    return f"Loose clothes cover {_listed([_WORDS[region] for region in _loose(clothing)])}"
 
 
 def _loose(clothing: Sequence[WornRegion]) -> dict[BodyRegion, float]:

@@ -29,11 +29,14 @@ class LooseClothes:
         What the skin's colour was learnt from: ``face``, ``hands``, or nothing.
     looks_undressed
         Whether trunk and thighs show so much of that colour that there may be no loose clothes.
+    over_top
+        Whether something is worn over a top; None where that is not known.
     """
 
     bare: PerVertex
     learnt_from: tuple[str, ...]
     looks_undressed: bool
+    over_top: bool | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -228,6 +228,7 @@ def dressed(
     bare = skin.probability if said.both == {Clothing.LOOSE} else covered.bare(skin, regions)
     loose = _loose(said, regions, bare, _joints_seen(rendering, prepared), skin)
     cloth = (1.0 - bare).astype(np.float32)
+    over = worn_over(observation.outer_cloth, regions)
     fullness = CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose
     return replace(
         objective,
@@ -236,18 +237,14 @@ def dressed(
             silhouette=replace(
                 silhouette,
                 cloth=cloth,
-                fullness=_fullness(
-                    rendering,
-                    prepared,
-                    shares_by_sleeves(regions, bare),
-                    worn_over(observation.outer_cloth, regions),
-                )
+                fullness=_fullness(rendering, prepared, shares_by_sleeves(regions, bare), over)
                 * fullness[..., None],
             ),
             clothes=LooseClothes(
                 bare=1.0 - sample(cloth, rendering.projected)[0],
                 learnt_from=skin.learnt_from,
                 looks_undressed=looks_undressed(skin, regions),
+                over_top=None if over is None else bool(over.max() > _BARE),
             ),
             worn=worn_regions(regions, skin, covered, bare=bare, loose=loose),
         ),

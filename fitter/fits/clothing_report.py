@@ -7,10 +7,9 @@ from typing import Final
 import numpy as np
 
 from fitter.arrays import GreyImage, Mask
-from fitter.capture.clothes import what_is_loose
-from fitter.energies.objective import Objective
+from fitter.energies.objective import Candidate, Objective
 from fitter.measurement.definitions import INTERVAL_SD
-from fitter.optimizer.uncertainty import Certainty, covered_distances
+from fitter.optimizer.uncertainty import Certainty, covered_distances, waist_distance
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
@@ -137,51 +136,50 @@ def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[
     return (_NOT_LOOSE,) if Clothing.LOOSE in said and undressed else ()
 
 
+def with_what_is_worn(
+    findings: Sequence[Remark], objective: Objective, body: Candidate
+) -> tuple[Remark, ...]:
+    """The findings; that of loose clothes with what they are and how far they stand off."""
+    clothes, off_m = objective.evidence.clothes, waist_distance(objective, body)
+    if clothes is None or off_m is None:
+        return tuple(findings)
+    off_cm = CENTIMETRES_PER_METRE * max(off_m, 0.0)
+    said = f"{_WORN[clothes.over_top]} stands about {off_cm:.0f} cm off the body at the waist."
+    return _told_more(findings, said)
+
+
 def with_what_clothes_cost(
-    findings: Sequence[Remark],
-    clothing: Sequence[WornRegion],
-    waist_cm: float | None,
-    weighed_cm: float | None,
+    findings: Sequence[Remark], waist_cm: float | None, weighed_cm: float | None
 ) -> tuple[Remark, ...]:
     """The findings; that of loose clothes with how well the waist is known, and would be.
 
     Parameters
     ----------
-    clothing
-        How each region is covered.
     waist_cm
         Standard error of the smallest waist; None where nothing is measured.
     weighed_cm
         The same if the weight were known; None if it is.
     """
-    return tuple(
-        _costing(each, what_is_loose(clothing) + _standing_off(clothing), waist_cm, weighed_cm)
-        if each.code == Code.CLOTHES_LOOSE and waist_cm is not None
-        else each
-        for each in findings
-    )
-
-
-def _costing(found: Remark, said: str, waist_cm: float, weighed_cm: float | None) -> Remark:
+    if waist_cm is None:
+        return tuple(findings)
     remedy = "Close-fitting clothes make it surer."
     if weighed_cm is not None:
         remedy = f"With the weight it is known to ± {_half(weighed_cm)} cm. {remedy}"
-    return replace(
-        found,
-        reason=(
-            f"{said}: the body under them is estimated, the smallest waist to "
-            f"± {_half(waist_cm)} cm (95 % of true values fall within)."
-        ),
-        remedy=remedy,
+    said = (
+        f"The smallest waist is known to ± {_half(waist_cm)} cm (95 % of true values fall within)."
     )
+    return _told_more(findings, said, remedy)
 
 
-def _standing_off(clothing: Sequence[WornRegion]) -> str:
-    """More of that sentence: how far clothes stand off the trunk, where an outline shows it."""
-    for each in clothing:
-        if each.region is BodyRegion.UPPER and each.ease_cm is not None:
-            return f", about {max(each.ease_cm, 0.0):.0f} cm off the upper body"
-    return ""
+def _told_more(
+    findings: Sequence[Remark], said: str, remedy: str | None = None
+) -> tuple[Remark, ...]:
+    return tuple(
+        replace(each, reason=f"{each.reason} {said}", remedy=remedy or each.remedy)
+        if each.code == Code.CLOTHES_LOOSE
+        else each
+        for each in findings
+    )
 
 
 def _half(standard_error: float) -> str:
@@ -189,6 +187,11 @@ def _half(standard_error: float) -> str:
     return f"{INTERVAL_SD * standard_error:.0f}"
 
 
+_WORN: Final = {
+    True: "What is worn over a top, a jacket, coat, vest or open shirt,",
+    False: "A top with nothing over it",
+    None: "What covers the trunk",
+}
 _NOT_LOOSE = remark(
     Note.CLOTHES_NOT_LOOSE,
     "Trunk and thighs show much of the colour of the person's skin, as in underwear or "

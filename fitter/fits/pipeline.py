@@ -247,7 +247,7 @@ def _with_cost_of_clothes(
             subject.prepared.measuring, shape, covariance, of=_WAIST, known=WEIGHT
         )
     return tuple(
-        replace(each, findings=with_what_clothes_cost(each.findings, each.clothing, waist, weighed))
+        replace(each, findings=with_what_clothes_cost(each.findings, waist, weighed))
         for each in people
     )
 

@@ -26,7 +26,7 @@ from fitter.energies.objective import Objective
 from fitter.evidence.doubtful_outline import off_the_body, scale_of
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.fits.capture_check import capture_of_fit
-from fitter.fits.clothing_report import clothes_are_guessed, with_ease
+from fitter.fits.clothing_report import clothes_are_guessed, with_ease, with_what_is_worn
 from fitter.fits.outline_search import PictureSearch, Subject
 from fitter.fits.plausibility import Plausibility, head_breadth, plausibility
 from fitter.fits.reporting import POOR_OVERLAP, outcome_of
@@ -85,6 +85,7 @@ def _settled(
     if not is_outgrown(figures):
         findings += obstruction(objective.evidence.silhouette, body.rendering, parts)
     findings += squeezed(capture, head_breadth(objective, body))
+    findings = with_what_is_worn(findings, objective, body)
     verdict = contradicted.verdict
     if verdict is Verdict.PLAUSIBLE and not checked.usable:
         verdict = Verdict.IMPLAUSIBLE

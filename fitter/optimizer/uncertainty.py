@@ -174,6 +174,20 @@ def covered_distances(
     return found
 
 
+def waist_distance(objective: Objective, candidate: Candidate) -> float | None:
+    """Mean distance of the outline from the body beside the waist, metres; None without cloth."""
+    lines, model = objective.evidence.lines, objective.operators.model
+    if lines is None:
+        return None
+    is_waist = model.skinning_parts[lines.points] == model.part_names.index("spine")
+    of_waist = (is_waist * model.skinning_weights[lines.points]).mean(axis=1).sum(axis=1)
+    weights = lines.confidence * lines.cloth * of_waist
+    if weights.sum() < 1.0:
+        return None
+    residuals = line_rows(candidate.rendering, lines, objective.scales)[0].residuals
+    return -float(weights @ residuals / weights.sum()) / objective.scales.pixels_per_metre
+
+
 def _height_response(space: FreeSpace, information: Float[np.ndarray, "n n"]) -> Shape:
     """Change of the most probable shape with the height coefficient.
 
