@@ -122,15 +122,13 @@ class PoseResult(ProductResult):
     )
 
 
-UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
+UpAxis = Literal["y", "-y", "z", "-z", "x", "-x"]
 
 
 class NamedMotion(StrEnum):
-    """Motions by name, and two poses in which a body for other programs stands still."""
+    """The walk, and two poses in which a body for other programs stands still."""
 
     WALK = "walk"
-    WAVE = "wave"
-    SQUAT = "squat"
     A_POSE = "a_pose"
     T_POSE = "t_pose"
 

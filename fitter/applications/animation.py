@@ -20,11 +20,11 @@ from fitter.applications.motion import (
     sliding_m,
 )
 from fitter.applications.motion_file import MotionFile
-from fitter.applications.named_motions import NAMED_MOTIONS
 from fitter.applications.poses import NAMED_POSES, Rig, named_pose, rig_of
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import Axis, retarget
 from fitter.applications.skeleton import skeleton_of
+from fitter.applications.walk import stride_of
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
@@ -145,22 +145,20 @@ def motion_of_clip(
     )
 
 
-def motion_of_name(
-    rig: Rig, name: str, *, start_s: float = 0.0, duration_s: float | None = None
+def motion_of_walk(
+    rig: Rig, *, start_s: float = 0.0, duration_s: float | None = None
 ) -> ChosenMotion:
-    """A stretch of a motion that ships with the package, which has no end.
+    """A stretch of the walk that ships with the package, which has no end.
 
     Parameters
     ----------
     rig
         The person's skeleton.
-    name
-        Of :data:`~fitter.applications.named_motions.NAMED_MOTIONS`.
     start_s, duration_s
         Which stretch; None is as often as is usual. What is longer than there may be frames is
         cut, with a warning.
     """
-    cycle = NAMED_MOTIONS[name](rig)
+    cycle = stride_of(rig)
     first = round(start_s / cycle.frame_time_s)
     wanted = cycle.times * cycle.frames
     if duration_s is not None:
@@ -168,7 +166,7 @@ def motion_of_name(
     frames = min(wanted, MOST_FRAMES)
     return ChosenMotion(
         motion=motion_of_cycle(cycle, rig, first=first, frames=frames),
-        source=f"the {name.replace('_', ' ')} that ships with the package",
+        source="the walk that ships with the package",
         up=None,
         warnings=_cut_warnings(frames, wanted, cycle.frame_time_s),
     )

@@ -97,22 +97,6 @@ FRAMES_PER_SECOND = 30.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Moment:
-    """Posture of a person at a moment.
-
-    Attributes
-    ----------
-    angles
-        By part; parts that are not named are held as at rest.
-    lean
-        Of the pelvis, degrees forward.
-    """
-
-    angles: Mapping[str, Angles]
-    lean: float = 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Cycle:
     """A motion that repeats itself.
 
@@ -122,13 +106,14 @@ class Cycle:
         Until it begins anew.
     times
         How often it is shown where nothing else is asked for.
-    moment
-        By phase, which is 0 where it begins and 1 where it begins anew.
+    angles
+        By part, at a phase that is 0 where it begins and 1 where it begins anew; parts that are not
+        named are held as at rest.
     """
 
     duration_s: float
     times: int
-    moment: Callable[[float], Moment]
+    angles: Callable[[float], Mapping[str, Angles]]
 
     @property
     def frames(self) -> int:
@@ -149,9 +134,8 @@ def motion_of_cycle(cycle: Cycle, rig: Rig, *, first: int = 0, frames: int | Non
     """
     count = cycle.times * cycle.frames if frames is None else frames
     numbers = np.arange(first, first + count) % cycle.frames
-    moments = [cycle.moment(float(number) / cycle.frames) for number in numbers]
-    poses = np.stack([angled_pose(rig, each.angles) for each in moments])
-    poses[:, 0, 0] = np.radians([each.lean for each in moments])
+    phases = (float(number) / cycle.frames for number in numbers)
+    poses = np.stack([angled_pose(rig, cycle.angles(phase)) for phase in phases])
     return Motion(
         frame_time_s=cycle.frame_time_s,
         poses=poses,

@@ -7,9 +7,9 @@ import numpy as np
 
 from fitter.applications.caricature import caricature_of_most_unusual
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
-from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose, rig_of
 from fitter.applications.texture import linear_picture, picture_texture
+from fitter.applications.walk import stride_of
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.export.bundle import reflectance_pictures

@@ -10,18 +10,17 @@ from scipy.spatial import KDTree
 from fitter.detection.worn_parts import WornPart
 from fitter.training.dressed.bodies import StandingBody, rest_body
 from fitter.training.dressed.garments import (
-    OUTER_RANK,
     SKIRT_RANK,
     TOP_RANK,
     LegsCut,
     UpperCut,
-    front_gap,
     hung,
     legs,
     neckline,
     upper,
 )
 from fitter.training.dressed.heads_and_feet import SHOE_RANK, shod
+from fitter.training.dressed.outer_garments import OUTER_RANK, front_gap
 from fitter.training.dressed.pictures import FOLD_M, fold_heights
 from fitter.training.dressed.surfaces import Hang, Layer, Paint, Places, noise, smooth_step
 from tests.accuracy.looks import CLOTH_ROUGHNESS

@@ -19,8 +19,8 @@ import numpy as np
 
 from api_schemas.fit import FitRequest
 from fitter.applications.motion import grounded, in_place, motion_of_cycle, moving_body
-from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose, rig_of
+from fitter.applications.walk import stride_of
 from fitter.arrays import Vertices
 from fitter.fits.equipment import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt

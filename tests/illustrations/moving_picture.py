@@ -18,7 +18,7 @@ from scipy.spatial import KDTree
 from trimesh.registration import procrustes
 
 from fitter import FitResult, body_vertices
-from fitter.applications.animation import animate, motion_of_name
+from fitter.applications.animation import animate, motion_of_walk
 from fitter.applications.poses import rig_of
 from fitter.applications.texture import linear_picture, picture_texture
 from fitter.export.gltf_mesh import BodyTexture
@@ -92,7 +92,7 @@ def film(result: FitResult) -> Image.Image:
     operators = PACKAGED.model(result.person.gender).operators
     pixels = decode_picture(load_sample().image, field="image", max_pixels=10**6).pixels
     texture = picture_texture(result.person, operators.evaluator, linear_picture(pixels))
-    walk = motion_of_name(rig_of(operators.model, result.person.body.shape), "walk")
+    walk = motion_of_walk(rig_of(operators.model, result.person.body.shape))
     _, encoded = cv2.imencode(".png", texture.levels[:, :, ::-1])
     made = animate(
         result.person,

@@ -7,7 +7,6 @@ import numpy as np
 from fitter.training.dressed.bodies import StandingBody, standing_body
 from fitter.training.dressed.cloths import cloth, hair_colour, skin_colour
 from fitter.training.dressed.garments import (
-    outer,
     pick,
     skirt,
     top,
@@ -16,6 +15,7 @@ from fitter.training.dressed.garments import (
     waist_height,
 )
 from fitter.training.dressed.heads_and_feet import footwear, hair, skin
+from fitter.training.dressed.outer_garments import outer
 from fitter.training.dressed.surfaces import Layer
 from fitter.vocabulary.choices import Gender
 

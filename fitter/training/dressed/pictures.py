@@ -8,7 +8,6 @@ from jaxtyping import Float, UInt8
 from scipy.ndimage import gaussian_filter
 
 from fitter.arrays import Vertices
-from fitter.detection.worn_parts import WornPart
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import Rendering, render
 from fitter.training.dressed.bodies import StandingBody, turn
@@ -225,14 +224,8 @@ def photographed(
     return stored
 
 
-def label_colours() -> UInt8[np.ndarray, "6 3"]:
-    """Colours of contact sheets, in the parts' order."""
-    colours = {
-        WornPart.BACKGROUND: (255, 255, 255),
-        WornPart.SKIN: (128, 128, 128),
-        WornPart.HAIR: (255, 128, 0),
-        WornPart.SHOES: (128, 0, 255),
-        WornPart.CLOTH: (50, 180, 50),
-        WornPart.OUTER: (0, 128, 255),
-    }
-    return np.array([colours[part] for part in WornPart], np.uint8)
+LABEL_COLOURS: Final = np.array(
+    [(255, 255, 255), (128, 128, 128), (255, 128, 0), (128, 0, 255), (50, 180, 50), (0, 128, 255)],
+    np.uint8,
+)
+"""Of contact sheets, in the order of :class:`~fitter.detection.worn_parts.WornPart`."""

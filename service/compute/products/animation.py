@@ -1,4 +1,4 @@
-"""The fitted body in motion: from a BVH file sent with the request, or by name."""
+"""The fitted body as a rig, walking, or moved by a BVH file sent with the request."""
 
 from api_schemas.products.base import BodyColours
 from api_schemas.products.bodies import AnimationOptions, AnimationResult, NamedMotion
@@ -6,7 +6,7 @@ from fitter.applications.animation import (
     ChosenMotion,
     animate,
     motion_of_clip,
-    motion_of_name,
+    motion_of_walk,
     rigged,
 )
 from fitter.applications.motion_file import read_motion
@@ -59,8 +59,6 @@ def make(fit: FinishedFit, options: AnimationOptions, report: Report) -> Made[An
 
 def _chosen(clip: bytes | None, options: AnimationOptions, rig: Rig) -> ChosenMotion:
     if clip is None:
-        return motion_of_name(
-            rig, options.motion, start_s=options.start_s, duration_s=options.duration_s
-        )
+        return motion_of_walk(rig, start_s=options.start_s, duration_s=options.duration_s)
     source = read_motion(clip, named=options.joints, start_s=options.start_s)
     return motion_of_clip(source, rig, duration_s=options.duration_s, up=options.up)

@@ -14,26 +14,23 @@ from fitter.applications.animation import (
     ChosenMotion,
     animate,
     motion_of_clip,
-    motion_of_name,
     rigged,
     way_warnings,
 )
 from fitter.applications.bvh_export import bvh_of_motion
 from fitter.applications.motion import (
     SLOWEST_M_PER_S,
-    SPOT_M,
     grounded,
-    in_place,
     motion_of_cycle,
     moving_body,
     sliding_m,
     unturned,
 )
 from fitter.applications.motion_file import read_motion
-from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import named_pose
 from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
 from fitter.applications.skeleton import BONE_NAMES, skeleton_of
+from fitter.applications.walk import stride_of
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import BoneNames, Gender
@@ -246,20 +243,6 @@ def test_what_is_odd_in_a_file_is_told_with_what_is_in_doubt(body):
     assert own.source == "BVH with the names of the request"
 
 
-def test_a_stretch_of_the_walk_is_what_was_asked_for(body):
-    whole = motion_of_name(body.rig, "walk")
-    frame_time_s = whole.motion.frame_time_s
-    assert len(whole.motion.poses) == 3 * stride_of(body.rig).frames
-    found = motion_of_name(body.rig, "walk", start_s=7 * frame_time_s, duration_s=20 * frame_time_s)
-    np.testing.assert_allclose(found.motion.poses, whole.motion.poses[7:27])
-    assert (found.motion.frame_time_s, found.warnings) == (frame_time_s, ())
-    # It has no end, and no stretch lies outside of it.
-    later = motion_of_name(body.rig, "walk", start_s=3_600.0, duration_s=1e-3).motion
-    assert len(later.poses) == 1
-    later = motion_of_name(body.rig, "walk", start_s=1.0).motion
-    assert len(later.poses) == len(whole.motion.poses)
-
-
 def walked(body, roots=None):
     """One stride, as of a file that says where its hips are if these are given."""
     stride = stride_of(body.rig)
@@ -316,31 +299,6 @@ def test_a_motion_written_as_bvh_is_read_again_by_every_program_s_names(body, mo
     apart = found.motion.poses - moving.motion.poses
     assert np.abs(apart[:, [0, 12]]).max() < 0.06
     assert (found.up, found.warnings) == ("y", ())
-
-
-def test_a_walk_in_place_stays_on_its_spot_and_can_be_repeated(body, moving):
-    assert np.ptp(moving.roots[:, 2]) > 0.9
-    made = in_place(
-        grounded(moving_body(body.evaluator, body.shape, walked(body).motion), body.model)
-    )
-    assert np.linalg.norm(made.roots[:, [0, 2]], axis=1).max() < 0.06
-    np.testing.assert_allclose(made.roots[0, [0, 2]], made.roots[-1, [0, 2]], atol=1e-9)
-
-
-def test_a_body_in_place_neither_leaves_the_frame_nor_slides_where_it_only_sways(moving):
-    """There and back, and round in circles; heights stay."""
-    angles = np.linspace(0.0, 4.0 * np.pi, len(moving.roots))
-    slow = replace(moving, motion=replace(moving.motion, frame_time_s=0.3))
-
-    def walking(way):
-        return replace(slow, roots=np.column_stack([way[0], 0.01 * angles, way[1]]))
-
-    for way in ((0 * angles, 3 * np.sin(angles / 4)), (2 * np.cos(angles), 2 * np.sin(angles))):
-        made = in_place(walking(way)).roots
-        assert np.linalg.norm(made[:, [0, 2]], axis=1).max() < SPOT_M
-        np.testing.assert_array_equal(made[:, 1], 0.01 * angles)
-    swaying = walking((0.2 * np.sin(angles), 0 * angles))
-    np.testing.assert_allclose(in_place(swaying).roots, swaying.roots, atol=1e-9)
 
 
 def test_a_file_that_goes_elsewhere_than_its_feet_is_told_with_both_ways(body):

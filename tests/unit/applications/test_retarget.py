@@ -10,10 +10,11 @@ from scipy.spatial.transform import Rotation
 
 from fitter.applications.motion import MovingBody, grounded, motion_of_cycle, moving_body, sliding_m
 from fitter.applications.motion_file import read_motion
-from fitter.applications.named_motions import stride_of
 from fitter.applications.poses import NAMED_POSES, named_pose
 from fitter.applications.retarget import AXES, Retargeted, found_up_axis, given_up_axis, retarget
+from fitter.applications.walk import stride_of
 from fitter.body.model import global_rotations, posed_joints
+from fitter.errors import InvalidInputError
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, NAMES, bvh_of
 
@@ -297,3 +298,65 @@ def test_a_body_without_extent_gives_an_axis_and_a_doubt():
     found = found_up_axis(np.zeros((3, 3)))
     assert found.axis == "y"
     assert len(found.warnings) == 1
+
+
+def standing(rig, *, frames: int = 30, roots=None, **changes) -> bytes:
+    poses = np.repeat(named_pose(rig, "standing")[None], frames, axis=0)
+    roots = np.tile([0.0, 0.9, 0.0], (frames, 1)) if roots is None else roots
+    return bvh_of(rig, names=MIXAMO, poses=poses, roots=roots, **changes)
+
+
+def refused_motion(content: bytes, **told) -> InvalidInputError:
+    with pytest.raises(InvalidInputError) as caught:
+        read_motion(content, **told)
+    return caught.value
+
+
+def test_the_leg_is_as_long_whatever_the_rest_pose(body):
+    found = [read_motion(path.read_bytes()).leg for path in sorted(DATA.glob("r_*.bvh"))]
+    assert len(found) == 3
+    assert found == pytest.approx([found[0]] * 3, rel=1e-6)
+    leg = sum(
+        np.linalg.norm(body.rig.bone("left_" + above, "left_" + below))
+        for above, below in (("thigh", "shin"), ("shin", "foot"))
+    )
+    assert read_motion(standing(body.rig, unit_m=0.01)).leg == pytest.approx(100 * leg, rel=1e-6)
+
+
+def test_a_skeleton_that_lies_in_one_point_is_refused(body):
+    error = refused_motion(standing(body.rig, unit_m=1e12))
+    assert error.code == "bvh-skeleton-unknown"
+    assert "no length" in error.reason
+
+
+def test_legs_that_do_not_hang_together_are_refused(body):
+    error = refused_motion(
+        standing(body.rig),
+        named={"left_shin": "mixamorig:RightLeg", "left_foot": "mixamorig:RightFoot"},
+    )
+    assert error.code == "bvh-skeleton-unknown"
+    assert "left shin" in error.reason
+
+
+def test_hips_in_another_unit_than_the_bones_are_refused(body):
+    roots = np.linspace([0.0, 0.9, 0.0], [0.0, 0.9, 1e4], 30)
+    error = refused_motion(standing(body.rig, roots=roots))
+    assert error.code == "bvh-too-far"
+    # Where the world has its origin is another matter.
+    read_motion(standing(body.rig, roots=np.tile([1e5, 0.9, -1e6], (30, 1))))
+
+
+def test_a_bone_in_another_unit_is_refused(body):
+    content = standing(body.rig).decode().replace("OFFSET 0.0 -0.05 0.1", "OFFSET 0.0 -5000 0.1", 1)
+    assert refused_motion(content.encode()).code == "bvh-too-far"
+
+
+@pytest.mark.parametrize("start_s", [-0.1, 1.0, 1e9, float("nan")])
+def test_a_stretch_outside_the_clip_is_refused(body, start_s):
+    error = refused_motion(standing(body.rig), start_s=start_s)
+    assert (error.code, error.field) == ("stretch-outside-clip", "start_s")
+    assert "1.00 s long" in error.reason
+
+
+def test_a_stretch_begins_at_the_nearest_frame(body):
+    assert read_motion(standing(body.rig), start_s=0.51).first == 15

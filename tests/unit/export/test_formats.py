@@ -13,9 +13,9 @@ import trimesh
 
 from fitter.applications.animated_glb import morphed_glb, skin_of, skinned_glb
 from fitter.applications.motion import grounded, motion_of_cycle, moving_body
-from fitter.applications.named_motions import stride_of
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.skeleton import skeleton_of
+from fitter.applications.walk import stride_of
 from fitter.export.formats import FORMATS, converted
 from fitter.observation.pixels import display_from_linear
 from fitter.vocabulary.choices import BoneNames

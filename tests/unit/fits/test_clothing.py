@@ -6,15 +6,9 @@ import numpy as np
 import pytest
 
 from fitter.energies.scales import EASE_MEAN_M
-from fitter.fits.clothing import (
-    USUAL_EASE_M,
-    TopShares,
-    looks_undressed,
-    shares_by_sleeves,
-    usual_fullness,
-    worn_over,
-)
+from fitter.fits.clothing import looks_undressed
 from fitter.fits.clothing_report import worn_regions
+from fitter.fits.ease import USUAL_EASE_M, TopShares, shares_by_sleeves, usual_fullness, worn_over
 from fitter.segmentation.coverage import Coverage, bare_forearms
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering, Gender

@@ -5,7 +5,7 @@ import { FIRST_WISHES, KINDS } from "../../../service/page/src/products/kinds";
 test("a request says only what its kind knows", () => {
   const wishes = { ...FIRST_WISHES, size: 512 as const };
   assert.deepEqual(KINDS.texture.request(wishes), { kind: "texture", colours: "picture", size: 512 });
-  assert.deepEqual(KINDS.animation.request({ ...wishes, named: "squat" }), { kind: "animation", motion: "squat" });
+  assert.deepEqual(KINDS.animation.request({ ...wishes, named: "t_pose" }), { kind: "animation", motion: "t_pose" });
   assert.deepEqual(KINDS.animation.request({ ...wishes, motion: new File([], "dance.bvh") }), { kind: "animation" });
 });
 

@@ -10,7 +10,7 @@ export const products = {
     print: { label: "Print", make: "Create the page", help: "One page to read, print and send: the body, the measurements and how sure they are." },
     size: { label: "Clothing size", make: "Find the size", help: "The size to take from a shop’s chart, and how likely each size fits." },
     pose: { label: "Other pose", make: "Create the pose", help: "The same body in another pose, to turn and to save." },
-    animation: { label: "Animation", make: "Create the animation", help: "The body walks, waves or squats, moves as a motion file (BVH) says, or stands on bones for you to animate." },
+    animation: { label: "Animation", make: "Create the animation", help: "The body walks, moves as a motion file (BVH) says, or stands on bones for you to animate." },
     texture: { label: "Texture", make: "Create the texture", help: "The body in the colours of the picture. What the picture does not show is filled in." },
     caricature: { label: "Caricature", make: "Create the caricature", help: "What is special about this body, exaggerated." },
     composition: { label: "Body fat", make: "Estimate it", help: "Body fat, lean mass and the like, by formulas from the literature." },
@@ -46,7 +46,7 @@ export const products = {
     moves: (file: string) => `It moves as ${file} says.`,
     files: "Or by a file, with joints named as by many programs: CMU, Mixamo, Biovision, SMPL, Unreal and others.",
     motion: "Motion",
-    motions: { walk: "Walk", wave: "Wave", squat: "Squat", a_pose: "A-pose", t_pose: "T-pose" },
+    motions: { walk: "Walk", a_pose: "A-pose", t_pose: "T-pose" },
   },
   texture: {
     turned: "The body in colour",

@@ -12,7 +12,7 @@ interface AnimationWishes {
 }
 
 const words = messages.products.animation;
-const MOTIONS: readonly NamedMotion[] = ["walk", "wave", "squat", "a_pose", "t_pose"];
+const MOTIONS: readonly NamedMotion[] = ["walk", "a_pose", "t_pose"];
 
 export const FIRST_ANIMATION: AnimationWishes = { named: "walk", motion: null };
 

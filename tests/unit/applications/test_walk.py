@@ -1,105 +1,24 @@
-"""Motions by name: within the limits of the joints, on the ground, without a jump; and the walk."""
+"""The walk: within the limits of the joints, on the ground, without a jump, in place."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from fitter.applications.animation import motion_of_walk
 from fitter.applications.motion import (
+    SPOT_M,
     Motion,
     grounded,
+    in_place,
     motion_of_cycle,
     moving_body,
     sliding_m,
     sole_vertices,
 )
-from fitter.applications.named_motions import NAMED_MOTIONS, least_jerk, stride_angles, stride_of
 from fitter.applications.poses import beyond_limits, named_pose
+from fitter.applications.walk import stride_angles, stride_of
 from tests.unit.applications.bodies import packaged
-
-GENDERS = ("female", "male")
-ON_THE_SPOT = [name for name in NAMED_MOTIONS if name != "walk"]
-
-
-def motion_of(body, name):
-    cycle = NAMED_MOTIONS[name](body.rig)
-    return motion_of_cycle(cycle, body.rig, frames=cycle.frames)
-
-
-def moving(body, name):
-    return grounded(moving_body(body.evaluator, body.shape, motion_of(body, name)), body.model)
-
-
-def centre_of_volume(vertices, triangles):
-    """Σ V (a + b + c) / 4 over tetrahedra to the origin, by their signed volumes V."""
-    corners = vertices[triangles].astype(float)
-    volumes = np.einsum("fi,fi->f", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    return (volumes[:, None] * corners.sum(axis=1) / 4.0).sum(axis=0) / volumes.sum()
-
-
-def test_least_jerk_begins_and_ends_at_rest_half_way_in_half_the_time():
-    assert [least_jerk(share) for share in (0.0, 0.5, 1.0)] == [0.0, 0.5, 1.0]
-    assert least_jerk(1e-3) < 1e-7
-    assert 1.0 - least_jerk(1.0 - 1e-3) < 1e-7
-
-
-@pytest.mark.parametrize("gender", GENDERS)
-@pytest.mark.parametrize("name", list(NAMED_MOTIONS))
-def test_every_frame_is_within_the_limits_of_the_joints(name, gender):
-    body = packaged(gender)
-    assert {beyond_limits(body.rig, pose) for pose in motion_of(body, name).poses} == {None}
-
-
-@pytest.mark.parametrize("gender", GENDERS)
-@pytest.mark.parametrize("name", ON_THE_SPOT)
-def test_it_stays_on_the_ground_and_on_the_spot(name, gender):
-    body = packaged(gender)
-    found = moving(body, name)
-    lowest = [found.vertices(frame)[:, 1].min() for frame in range(len(found.shapes))]
-    np.testing.assert_allclose(lowest, found.motion.lifts_m, atol=1e-6)
-    assert sliding_m(found, body.model) < 0.0035
-    way = np.abs(found.roots[-1] - found.roots[0])[[0, 2]]
-    assert way.max() < 0.02
-
-
-@pytest.mark.parametrize("name", ON_THE_SPOT)
-def test_frames_follow_each_other_and_the_first_follows_the_last(name):
-    body = packaged("female")
-    found = moving(body, name)
-    bodies = np.stack([found.vertices(frame) for frame in range(len(found.shapes))])
-    steps = np.linalg.norm(np.diff(np.concatenate([bodies, bodies[:1]]), axis=0), axis=2)
-    assert steps.max() < 0.25
-    assert steps[-1].max() <= 1.05 * steps[:-1].max()
-
-
-@pytest.mark.parametrize("gender", GENDERS)
-def test_who_squats_keeps_the_balance_with_level_thighs(gender):
-    body = packaged(gender)
-    found = moving(body, "squat")
-    soles = sole_vertices(body.model)
-    heights = [found.vertices(frame)[:, 1].max() for frame in range(len(found.shapes))]
-    assert min(heights) < 0.75 * max(heights)
-    for frame in range(0, len(found.shapes), 4):
-        vertices = found.vertices(frame)
-        on_ground = vertices[soles][vertices[soles, 1] < 0.01]
-        centre = centre_of_volume(vertices, body.model.triangles)
-        assert on_ground[:, 2].min() < centre[2] < on_ground[:, 2].max()
-        assert on_ground[:, 0].min() < centre[0] < on_ground[:, 0].max()
-
-
-def test_who_waves_has_the_right_hand_beside_the_head_and_moves_it_to_and_fro():
-    body = packaged("male")
-    found = moving(body, "wave")
-    hand = np.unique(
-        body.model.triangles[body.model.part_of_triangle == body.rig.index("right_hand")]
-    )
-    places = np.stack(
-        [found.vertices(frame)[hand].mean(axis=0) for frame in range(len(found.shapes))]
-    )
-    swinging = places[places[:, 1] > 0.85 * found.vertices(0)[:, 1].max()]
-    assert len(swinging) > 0.4 * len(places)
-    assert np.ptp(swinging[:, 0]) > 0.2
-    turns = np.diff(np.sign(np.diff(swinging[:, 0])))
-    assert np.count_nonzero(turns) >= 5
-
 
 WINTER_SPEED_M_S = (0.9, 1.7)
 """Slow to fast walking of adults."""
@@ -123,6 +42,10 @@ def test_the_stride_is_periodic_and_the_sides_take_turns():
             assert held.flexion == pytest.approx(later[part].flexion)
             assert held.twist == pytest.approx(later[part].twist)
         assert now["left_shin"].flexion == pytest.approx(half["right_shin"].flexion)
+
+
+def test_every_frame_is_within_the_limits_of_the_joints(body, walking):
+    assert {beyond_limits(body.rig, pose) for pose in walking.motion.poses} == {None}
 
 
 def test_a_walk_has_no_jump_between_frames(walking):
@@ -184,3 +107,40 @@ def test_a_standing_person_stays_where_it_is_though_its_source_slides(body):
     placed = grounded(of_walk, body.model)
     assert np.abs(np.diff(placed.roots, axis=0)).max() < 1e-4
     assert sliding_m(placed, body.model) < 1e-4
+
+
+def test_a_stretch_of_the_walk_is_what_was_asked_for(body):
+    whole = motion_of_walk(body.rig)
+    frame_time_s = whole.motion.frame_time_s
+    assert len(whole.motion.poses) == 3 * stride_of(body.rig).frames
+    found = motion_of_walk(body.rig, start_s=7 * frame_time_s, duration_s=20 * frame_time_s)
+    np.testing.assert_allclose(found.motion.poses, whole.motion.poses[7:27])
+    assert (found.motion.frame_time_s, found.warnings) == (frame_time_s, ())
+    # It has no end, and no stretch lies outside of it.
+    later = motion_of_walk(body.rig, start_s=3_600.0, duration_s=1e-3).motion
+    assert len(later.poses) == 1
+    later = motion_of_walk(body.rig, start_s=1.0).motion
+    assert len(later.poses) == len(whole.motion.poses)
+
+
+def test_a_walk_in_place_stays_on_its_spot_and_can_be_repeated(walking):
+    assert np.ptp(walking.roots[:, 2]) > 0.9
+    made = in_place(walking)
+    assert np.linalg.norm(made.roots[:, [0, 2]], axis=1).max() < 0.06
+    np.testing.assert_allclose(made.roots[0, [0, 2]], made.roots[-1, [0, 2]], atol=1e-9)
+
+
+def test_a_body_in_place_neither_leaves_the_frame_nor_slides_where_it_only_sways(walking):
+    """There and back, and round in circles; heights stay."""
+    angles = np.linspace(0.0, 4.0 * np.pi, len(walking.roots))
+    slow = replace(walking, motion=replace(walking.motion, frame_time_s=0.3))
+
+    def going(way):
+        return replace(slow, roots=np.column_stack([way[0], 0.01 * angles, way[1]]))
+
+    for way in ((0 * angles, 3 * np.sin(angles / 4)), (2 * np.cos(angles), 2 * np.sin(angles))):
+        made = in_place(going(way)).roots
+        assert np.linalg.norm(made[:, [0, 2]], axis=1).max() < SPOT_M
+        np.testing.assert_array_equal(made[:, 1], 0.01 * angles)
+    swaying = going((0.2 * np.sin(angles), 0 * angles))
+    np.testing.assert_allclose(in_place(swaying).roots, swaying.roots, atol=1e-9)
