@@ -39,9 +39,9 @@ test-rest: $(STAMP)
 test-shapes: $(STAMP)
 	$(PYTEST) -m shapes $(CHECKED)
 
-# All tests that `make test-shapes` does not run: so CI runs each once. They wait more than they compute.
+# All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)
-	$(PYTEST) --numprocesses 3 -m "not shapes"
+	$(PYTEST) -m "not shapes"
 
 # What other runs do in part, at length: cases of the contract, damaged inputs, killed processes.
 test-long: $(STAMP)
