@@ -26,14 +26,11 @@ from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.products import Product
 from api_schemas.results import FitResult
 
-_WAIT_S: Final = 30
-"""Time that an answer about a product waits for the product's end, seconds."""
-
-_PAUSE_S: Final = 1.0
+_PAUSE_S: Final = 1
 _TIMEOUT_S: Final = 60.0
-_ACTIVE: Final = (JobState.QUEUED, JobState.RUNNING)
 
 Model = TypeVar("Model", bound=BaseModel)
+Ended = TypeVar("Ended", Fit, Product)
 Content = Path | str | bytes
 """A file, by its path, or its content."""
 
@@ -95,11 +92,9 @@ class Maquette:
         MaquetteError
             If it is refused, or does not succeed.
         """
-        parts = [_part("request", _json(request))]
-        parts += [_part("image", _content(each)) for each in pictures]
-        parts += [_part("mask", _content(each)) for each in masks]
+        form = _form(request, image=pictures, mask=masks)
         headers = {} if idempotency_key is None else {"Idempotency-Key": idempotency_key}
-        fit = _read(Fit, self._call("POST", "/v1/fits", files=parts, headers=headers))
+        fit = _read(Fit, self._call("POST", "/v1/fits", files=form, headers=headers))
         for event in self._events(fit):
             on_progress(event)
         return _succeeded(_read(Fit, self._call("GET", fit.links.self)))
@@ -108,19 +103,25 @@ class Maquette:
         """Return what a fit has found."""
         return _read(FitResult, self._call("GET", f"{fit.links.self}/result"))
 
-    def product(self, fit: Fit, request: Request, **part: Content) -> Product:
+    def product(
+        self,
+        fit: Fit,
+        request: Request,
+        *,
+        on_progress: Callable[[Product], None] = lambda _: None,
+        **part: Content,
+    ) -> Product:
         """Have something made of a fit; ``part`` is what comes along, as ``chart=Path("a.csv")``.
 
         Raises as :meth:`fit` does.
         """
-        parts = [_part("request", _json(request))]
-        parts += [_part(name, _content(each)) for name, each in part.items()]
-        headers = {"Prefer": f"wait={_WAIT_S}"}
-        path = f"{fit.links.self}/products"
-        product = _read(Product, self._call("POST", path, files=parts, headers=headers))
-        while product.state in _ACTIVE:
+        form = _form(request, **{name: [each] for name, each in part.items()})
+        path, headers = f"{fit.links.self}/products", {"Prefer": f"wait={_PAUSE_S}"}
+        answer = self._call("POST", path, files=form, headers=headers)
+        while (product := _read(Product, answer)).state in (JobState.QUEUED, JobState.RUNNING):
+            on_progress(product)
             time.sleep(_PAUSE_S)
-            product = _read(Product, self._call("GET", product.links.self))
+            answer = self._call("GET", product.links.self)
         return _succeeded(product)
 
     def file(self, of: Fit | Product, name: str) -> bytes:
@@ -164,8 +165,10 @@ class Maquette:
         raise _failure(problem, answer.status_code, f"The service answered {answer.status_code}.")
 
 
-def _part(name: str, content: bytes) -> tuple[str, tuple[str, bytes, str]]:
-    return name, (name, content, "application/octet-stream")
+def _form(request: Request, **files: Sequence[Content]) -> list[tuple[str, Any]]:
+    read = [(name, _content(each)) for name, several in files.items() for each in several]
+    parts = [("request", _json(request)), *read]
+    return [(name, (name, content, "application/octet-stream")) for name, content in parts]
 
 
 def _json(request: Request) -> bytes:
@@ -181,9 +184,6 @@ def _content(file: Content) -> bytes:
 def _read(kind: type[Model], answer: httpx.Response) -> Model:
     """The answer as a model; fields that a later version of the service has added are ignored."""
     return kind.model_validate_json(answer.content, extra="ignore")
-
-
-Ended = TypeVar("Ended", Fit, Product)
 
 
 def _succeeded(ended: Ended) -> Ended:

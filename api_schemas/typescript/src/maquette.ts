@@ -42,8 +42,7 @@ export class MaquetteError extends Error {
   }
 }
 
-const PRODUCT_WAIT_S = 30;
-const PAUSE_MS = 1_000;
+const PAUSE_S = 1;
 const PROBLEM = "application/problem+json";
 
 export class Maquette {
@@ -75,13 +74,19 @@ export class Maquette {
     return json(await this.#call(`${fit.links.self}/result`));
   }
 
-  /** Have something made of a fit; `part` is what comes along, `{ bvh }`, `{ texture }` or `{ chart }`. */
-  async product(fit: Fit, request: ProductRequest, part: Readonly<Record<string, Blob>> = {}): Promise<Product> {
+  /** Have something made of a fit; `part` is what comes along, `{ bvh }` or `{ chart }`. */
+  async product(
+    fit: Fit,
+    request: ProductRequest,
+    part: Readonly<Record<string, Blob>> = {},
+    onProgress?: (product: Product) => void,
+  ): Promise<Product> {
     const form = formWith(request);
     for (const [name, content] of Object.entries(part)) form.append(name, content, name);
-    const headers = { Prefer: `wait=${PRODUCT_WAIT_S}` };
+    const headers = { Prefer: `wait=${PAUSE_S}` };
     let product = await json<Product>(await this.#call(`${fit.links.self}/products`, { method: "POST", body: form, headers }));
     while (product.state === "queued" || product.state === "running") {
+      onProgress?.(product);
       await pause();
       product = await json<Product>(await this.#call(product.links.self));
     }
@@ -166,5 +171,5 @@ async function json<T>(response: Response): Promise<T> {
 }
 
 async function pause(): Promise<void> {
-  await new Promise((resume) => setTimeout(resume, PAUSE_MS));
+  await new Promise((resume) => setTimeout(resume, 1_000 * PAUSE_S));
 }

@@ -8,7 +8,7 @@ export async function measured(address: string, picture: Blob, other: Blob) {
   const fit = await maquette.fit(known, [picture], { onProgress: ({ state }) => states.push(state) });
   const found = await maquette.result(fit);
   const glb = await maquette.file(fit, "body_canonical.glb");
-  const posed = await maquette.product(fit, { kind: "pose", pose: "sitting" });
+  const posed = await maquette.product(fit, { kind: "pose", pose: "sitting" }, {}, ({ state }) => states.unshift(state));
   const reposed = await maquette.file(posed, "body_reposed.glb");
 
   const views = [{ view: "front" }, { view: "side" }] as const;
