@@ -9,7 +9,6 @@ QUICK = (
     "unit",
     "contract",
     "e2e/test_demo.py",
-    "e2e/page/test_whole_path.py",
 )
 """Folders and files of which `make test` runs all but what is marked slow."""
 

@@ -52,6 +52,11 @@ def of_two() -> tuple[FitResult, list[Progress]]:
 
 
 @pytest.fixture(scope="module")
+def of_another_side() -> FitResult:
+    return fit(asked(STANDING, ViewKind.SIDE))
+
+
+@pytest.fixture(scope="module")
 def of_one() -> tuple[FitResult, list[Progress]]:
     reports: list[Progress] = []
     return fit(asked(STANDING, ViewKind.FRONT), observer=reports.append), reports
@@ -119,8 +124,8 @@ def test_before_shading_every_view_is_as_its_outline_left_it(of_one, of_two):
         np.testing.assert_array_equal(view.found.posed_vertices, body.posed_vertices)
 
 
-def test_a_picture_from_another_side_than_announced_withholds_measurements():
-    turned = fit(asked(STANDING, ViewKind.SIDE))
+def test_a_picture_from_another_side_than_announced_withholds_measurements(of_another_side):
+    turned = of_another_side
     assert "other-view" in {each.code for each in turned.views[0].findings}
     assert turned.found.verdict is Verdict.IMPLAUSIBLE
     assert turned.measurements == ()
@@ -151,6 +156,7 @@ def test_proposals_that_are_sent_back_are_no_clicks(spread_m, is_told):
     assert (Code.SEVERAL_PEOPLE in findings) is is_told
 
 
+@pytest.mark.slow
 def test_a_belly_that_the_first_body_does_not_reach_is_the_persons_own():
     """It stood so far off that body that the whole of it was doubted."""
     pair = PHONE_PAIRS["phone_man_old_heavy"]
@@ -200,11 +206,11 @@ def test_progress_names_the_view_and_never_goes_back(of_two):
     assert result.stage_seconds.keys() == {each.stage.value for each in reports}
 
 
-def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one):
+def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one, of_another_side):
     result, reports = of_one
+    turned = of_another_side
     assert {each.view for each in reports} == {None}
     assert (np.diff([each.fraction for each in reports]) >= 0.0).all()
-    turned = fit(asked(STANDING, ViewKind.SIDE))
     (warning,) = turned.warnings
     assert warning.code == "other-view"
     assert warning.reason.startswith("The picture is said to be from the side")
@@ -257,7 +263,9 @@ def test_views_of_different_people_are_told():
     assert result.alone.doubtful
 
 
-@pytest.mark.parametrize("names", [(STANDING,), (STANDING, TURNED)])
+@pytest.mark.parametrize(
+    "names", [pytest.param((STANDING,), marks=pytest.mark.slow), (STANDING, TURNED)]
+)
 def test_a_weight_that_was_given_is_held(names):
     known = {"weight": KnownMeasurement(value=78.0)}
     result = fit(changed(together(*map(asked, names)), measurements=known))
@@ -267,7 +275,9 @@ def test_a_weight_that_was_given_is_held(names):
     assert weight.standard_error == 0.0
 
 
-@pytest.mark.parametrize("names", [(STANDING,), (STANDING, TURNED)])
+@pytest.mark.parametrize(
+    "names", [(STANDING,), pytest.param((STANDING, TURNED), marks=pytest.mark.slow)]
+)
 def test_a_weight_that_the_pictures_contradict_is_named(names):
     known = {"weight": KnownMeasurement(value=45.0)}
     result = fit(changed(together(*map(asked, names)), measurements=known))
@@ -282,8 +292,7 @@ def test_left_and_right_of_a_mirrored_picture_are_doubted():
         name.replace("left", "?").replace("right", "left").replace("?", "right"): click
         for name, click in request.views[0].clicks.items()
     }
-    result = fit(together(changed(request, clicks=swapped), asked(TURNED)))
-    assert "other-view" in warned(result)
+    assert "other-view" in warned(fit(changed(request, clicks=swapped)))
 
 
 def test_the_simplex_searches_several_pictures_too(monkeypatch):
@@ -304,8 +313,8 @@ def test_the_simplex_searches_several_pictures_too(monkeypatch):
     np.testing.assert_array_equal(one, other)
 
 
-def test_an_unknown_height_leaves_the_shape_less_certain():
-    pictures = together(*(asked(name) for name in (STANDING, TURNED)))
-    known, unsure = fit(pictures), fit(changed(pictures, height_m=None))
+def test_an_unknown_height_leaves_the_shape_less_certain(of_one):
+    known, _ = of_one
+    unsure = fit(changed(asked(STANDING, ViewKind.FRONT), height_m=None))
     assert unsure.shape_covariance[0, 0] > 0.1
     assert np.trace(unsure.shape_covariance) > np.trace(known.shape_covariance)

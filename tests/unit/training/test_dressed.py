@@ -117,9 +117,9 @@ def test_slopes_are_finite_differences_of_the_loss(rng: np.random.Generator):
 
 
 def test_what_a_plane_tells_apart_is_learned(rng: np.random.Generator, tmp_path):
-    read = rng.normal(3.0, 2.0, (12_000, 8))
+    read = rng.normal(3.0, 2.0, (6_000, 8))
     labels = np.where(read[:, 0] > 3.0, WornPart.SKIN, WornPart.CLOTH).astype(np.int64)
-    *_, (_, head) = learned(Samples(read.astype(np.float16), labels, np.ones(12_000)), 30, rng)
+    *_, (_, head) = learned(Samples(read.astype(np.float16), labels, np.ones(6_000)), 20, rng)
     write_head(tmp_path / "head.npz", head)
     stored = load_head(tmp_path / "head.npz")
     values = read

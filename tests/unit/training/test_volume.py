@@ -168,6 +168,7 @@ def test_the_skin_hardly_moves():
     assert 1e-5 < np.mean(moved) < 0.006
 
 
+@pytest.mark.slow
 def test_bodies_at_rest_and_all_else_of_the_model_stay():
     for name in ("mean_vertices", "shape_basis", "triangle_weights", "pose_feature_joints"):
         np.testing.assert_array_equal(getattr(model(), name), getattr(learned(), name))
