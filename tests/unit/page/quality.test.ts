@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { FitResult, Remark, ViewResult } from "../../../service/page/src/api/types";
+import { NOBODY } from "../../../service/page/src/draft/person";
+import { person } from "../../../service/page/src/draft/draft";
 import { contradictionOf, gradeOf, headingOf } from "../../../service/page/src/result/quality";
 import { notesOf } from "../../../service/page/src/result/remarks";
 
@@ -47,4 +49,14 @@ test("what is withheld is named as it is labelled, what most people ask for alon
   const [note] = notesOf(of({}, { warnings: [withheld] }));
   assert.match(note!.text, /^Left out: Weight and Waist, smallest, as /);
   assert.equal(note!.deed, "adjust");
+});
+
+test("loose clothes are told of in the units of the page", () => {
+  const result = of({ findings: [{ ...remark("clothes-loose", "harms"), reason: "A top stands about 5 cm off.", remedy: "It is known to ± 7.6 cm." }] });
+  const told = (units: "metric" | "imperial") => {
+    person.value = { ...NOBODY, units };
+    return notesOf(result)[0]!.text;
+  };
+  assert.equal(told("imperial"), "A top stands about 2.0 in off. It is known to ± 3.0 in.");
+  assert.equal(told("metric"), "A top stands about 5 cm off. It is known to ± 7.6 cm.");
 });

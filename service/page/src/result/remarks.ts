@@ -1,8 +1,8 @@
 // What there is to know of a result, the most important first, each with what can be done about it.
 import type { FitResult, Remark, ViewResult } from "../api/types";
 import { person } from "../draft/draft";
-import { heightInWords } from "../draft/person";
-import { listed, measured } from "../messages/figures";
+import { heightInWords, inches } from "../draft/person";
+import { decimal, listed, measured } from "../messages/figures";
 import { messages } from "../messages";
 import { viewTitles } from "../messages/viewNames";
 import { plainName, wordFor } from "../messages/words";
@@ -86,7 +86,7 @@ function ofRemark(remark: Remark, number: number | null, result: FitResult): Not
     "points-proposed": () => assumed.points(remark.where.length),
     "measurements-withheld": () => messages.result.leftOut(listed(remark.where.filter(isChief).map(measureLabel))),
     // What was taken off, and how well the waist is known.
-    "clothes-loose": () => `${remark.reason} ${remark.remedy}`,
+    "clothes-loose": () => lengthsIn(person.value.units, `${remark.reason} ${remark.remedy}`),
   };
   const text = words[remark.code]?.() ?? withTitles(remarked(remark), result.views);
   return noteOf(remark.code, text, number, { isProblem: remark.severity === "blocks" });
@@ -94,6 +94,12 @@ function ofRemark(remark: Remark, number: number | null, result: FitResult): Not
 
 function noteOf(code: string, text: string, number: number | null, more: Partial<Note>): Note {
   return { code, text, number, isProblem: false, deed: deedOf(code), limbs: [], ...more };
+}
+
+/** A message of the service, which speaks of centimetres. */
+function lengthsIn(units: typeof person.value.units, message: string): string {
+  if (units === "metric") return message;
+  return message.replace(/\b(\d+(?:\.\d+)?) cm\b/g, (_, cm: string) => `${decimal(inches(Number(cm)), 1)} in`);
 }
 
 /** A message of the service with its pictures as people call them: `views.1` is the side picture. */
