@@ -102,6 +102,7 @@ def fitted(sample) -> dict[str, object]:
     return {**sample, "result": fitter.fit(fitter.FitRequest(person=person, views=(view,)))}
 
 
+@pytest.mark.slow
 def test_examples_run(fitted):
     failed, tried = doctest.testmod(library, extraglobs=fitted)
     assert tried > 0

@@ -109,6 +109,7 @@ def test_activations_end_in_the_networks_outputs():
     assert found[298] == pytest.approx(outputs[64, 64, 39], abs=1e-4)
 
 
+@pytest.mark.slow
 def test_drawn_people_that_were_not_learned_from_are_told_by_pixel():
     same = {part: [0, 0] for part in (WornPart.SKIN, WornPart.CLOTH)}
     for seed in range(8):

@@ -61,6 +61,10 @@ def spoilt(how: str) -> np.ndarray:
     return made[how]
 
 
+def test_nothing_is_found_in_a_good_picture():
+    assert codes(checked(sample(), view=ViewKind.FRONT)) == []
+
+
 @pytest.mark.parametrize(
     ("how", "code", "severity"),
     [
@@ -76,7 +80,6 @@ def spoilt(how: str) -> np.ndarray:
     ],
 )
 def test_what_is_done_to_a_good_picture_is_found(how, code, severity):
-    assert codes(checked(sample(), view=ViewKind.FRONT)) == []
     check = checked(spoilt(how))
     found = {each.code: each for each in check.checked.findings}
     assert code in found

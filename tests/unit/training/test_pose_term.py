@@ -144,7 +144,7 @@ def test_regression_recovers_a_planted_linear_term():
 def test_regression_recovers_how_the_term_grows_with_the_body():
     parts = slices_of_a_sphere()
     strength = np.array([0.2, -0.1])
-    _, examples = planted_examples(parts, 200, strength)
+    _, examples = planted_examples(parts, 100, strength)
     term = train_pose_term(examples, laplacians_of(parts), parts, JOINTS, 2, ridge=1e-13)
     expected = np.broadcast_to(strength, (9, 2))
     np.testing.assert_allclose(term.strengths[SHIN, OF_FOOT], expected, rtol=0.1)
