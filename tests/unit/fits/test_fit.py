@@ -52,7 +52,7 @@ def of_two() -> tuple[FitResult, list[Progress]]:
 
 
 @pytest.fixture(scope="module")
-def of_another_side() -> FitResult:
+def turned() -> FitResult:
     return fit(asked(STANDING, ViewKind.SIDE))
 
 
@@ -124,8 +124,7 @@ def test_before_shading_every_view_is_as_its_outline_left_it(of_one, of_two):
         np.testing.assert_array_equal(view.found.posed_vertices, body.posed_vertices)
 
 
-def test_a_picture_from_another_side_than_announced_withholds_measurements(of_another_side):
-    turned = of_another_side
+def test_a_picture_from_another_side_than_announced_withholds_measurements(turned):
     assert "other-view" in {each.code for each in turned.views[0].findings}
     assert turned.found.verdict is Verdict.IMPLAUSIBLE
     assert turned.measurements == ()
@@ -206,9 +205,8 @@ def test_progress_names_the_view_and_never_goes_back(of_two):
     assert result.stage_seconds.keys() == {each.stage.value for each in reports}
 
 
-def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one, of_another_side):
+def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one, turned):
     result, reports = of_one
-    turned = of_another_side
     assert {each.view for each in reports} == {None}
     assert (np.diff([each.fraction for each in reports]) >= 0.0).all()
     (warning,) = turned.warnings

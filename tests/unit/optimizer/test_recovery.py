@@ -89,10 +89,6 @@ def test_the_gradient_points_the_way_the_true_energy_falls(scene):
     assert 0.4 < np.linalg.norm(exact) / np.linalg.norm(numeric) < 1.6
 
 
-def test_the_height_coefficient_is_never_moved(scene, silhouette_fit):
-    assert silhouette_fit.candidate.shape[0] == scene.start.shape[0]
-
-
 def test_the_simplex_lowers_the_same_energy_but_slower(scene):
     person, start = scene.person, [scene.start]
     newton = minimize_gauss_newton(person, start, max_evaluations=40, on_energies=ignore)
