@@ -15,6 +15,9 @@ QUICK = (
 LONGEST = (
     "contract/test_schemathesis.py",
     "integration/test_training.py",
+    # What it makes, others of its folder use.
+    "foreign/test_readers.py",
+    "integration/service/test_paper_command.py",
     "e2e/test_installed_wheel.py",
     # With the folders after them, whose other files use the same services.
     "e2e/page/test_products.py",
@@ -35,10 +38,8 @@ LONGEST = (
     "unit/fits/test_fit.py",
     "unit/optimizer/test_recovery.py",
     "unit/training/test_rig.py",
-    "unit/training/test_bone_centres.py",
     "unit/service/test_bodies_of_fits.py",
     "unit/optimizer/test_free_space.py",
-    "unit/training/test_volume.py",
 )
 """Files and folders that take longest: two processes then end at nearly the same time."""
 

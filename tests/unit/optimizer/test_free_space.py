@@ -251,6 +251,7 @@ def test_an_uncertain_attribute_is_met_within_its_tolerance(scene):
     assert 0.2 < errors["waist_girth_navel"] < 0.5
 
 
+@pytest.mark.slow
 def test_a_given_weight_corrects_the_body_the_picture_alone_gives(scene):
     wanted = measured(scene.truth.shape)
     off: list[float] = []

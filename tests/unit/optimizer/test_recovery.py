@@ -52,8 +52,7 @@ def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
         posed.append(scene.posed_error_mm(body) / scene.posed_error_mm(scene.start))
         shapes.append(scene.shape_error_mm(body) / scene.shape_error_mm(scene.start))
     # Depth is poorly seen, and a spine may bend for the pelvis: rounding alone takes one body from
-    # 0.33 to 0.56 of its first error. Nor do random poses balance, as the fit expects of people.
-    # The mean over these five is 0.54, over twelve 0.65; of shapes it is 0.61.
+    # 0.33 to 0.56 of its first error. The mean over five is 0.54; of shapes it is 0.61.
     assert np.exp(np.log(posed).mean()) < 0.75
     assert np.mean(shapes) < 0.7
 
