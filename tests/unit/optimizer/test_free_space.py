@@ -167,7 +167,7 @@ def test_a_step_that_cannot_be_brought_back_is_none(scene):
 def test_with_everything_known_the_pose_is_still_searched(scene):
     others = [name for name in body().population.names if name != "stature"]
     objective, start = begun(scene, person(scene, dict.fromkeys(others, 0.0)))
-    found = minimize_gauss_newton(objective, start, max_evaluations=60, on_energies=ignore)
+    found = minimize_gauss_newton(objective, start, max_evaluations=20, on_energies=ignore)
     assert found.candidate.total < 0.5 * objective.evaluate(start).total
     values = measured(found.candidate.shape)
     assert values == pytest.approx(measured(scene.truth.shape), abs=0.02)
