@@ -3,7 +3,7 @@ export const start = {
   title: "Your measurements and your body in 3D, from one photo",
   accuracy: (most: string, people: string) =>
     `From front and side, chest, waist and hip are typically within ${most} (tested on ${people} rendered people).`,
-  figures: "All figures",
+  figures: "All\u00a0figures",
   choose: "Choose a picture",
   take: "Take or choose a picture",
   goOn: { with: (picture: string) => `Continue with ${picture}`, discard: "Discard" },
