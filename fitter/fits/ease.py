@@ -64,10 +64,6 @@ heavier than these people, and where a jacket is widest no outline is found: wit
 jackets are 1.9 cm nearer to those without than with 3.0, and 0.1 cm nearer than with 6.0. Where no
 detector tells, two of three long sleeves in the street are taken to be those of a jacket."""
 
-OUTER_SLEEVES = 0.8
-"""The same of sleeves of what is worn over a top. Sleeves and trunk share an offset: with 2.2 those
-of 16 real jackets, which hang no wider than a hoodie's, make waists 2 cm larger."""
-
 WORN_OVER, WORN_OVER_SPREAD = 0.36, 0.04
 """Mean probability of outer cloth on the trunk at which something is as probably worn over a top as
 not, and how fast that turns: 16 real people who wear it have 0.35 to 0.7, without it 0 to 0.35."""
@@ -159,12 +155,11 @@ def ease_map(
     of_triangle = usual_fullness(model)[model.triangles].mean(axis=1).astype(np.float32)
     on_trunk = np.isin(np.array(model.part_names)[model.part_of_triangle], _OF_TRUNK)
     nearest = faces.ravel()[nearest_of(faces >= 0)]
-    trunk, arms = shares.any_trunk, shares.arms
+    trunk = shares.any_trunk
     if over is not None:
         trunk = shares.trunk + over * (OUTER - shares.trunk)
-        arms = shares.arms + over * (OUTER_SLEEVES - shares.arms)
     fullness = of_triangle[nearest]
-    fullness[..., 0] *= np.where(on_trunk[nearest], trunk, arms)
+    fullness[..., 0] *= np.where(on_trunk[nearest], trunk, shares.arms)
     return fullness
 
 
