@@ -14,6 +14,7 @@ from fitter.fits.verdict import (
     BROAD_HEAD,
     FAR_EARS,
     LEAST_OFF_M2,
+    NARROW_DRESSED,
     NARROW_HEAD,
     NEAR_EARS,
     contradiction,
@@ -164,7 +165,8 @@ def told(mask: np.ndarray, doubted: np.ndarray, *, arms: bool = False) -> Remark
     return found[0] if found else None
 
 
-def shares(finding: Remark) -> dict[str, int]:
+def shares(finding: Remark | None) -> dict[str, int]:
+    assert finding is not None
     return {part: int(share) for share, part in re.findall(r"(\d+) % at the (\w+)", finding.reason)}
 
 
@@ -205,26 +207,22 @@ def test_doubt_that_spread_from_a_shadow_at_the_feet_is_not_told():
 def test_what_hides_a_leg_is_told_and_an_arm_where_none_is_seen_is_not():
     gap = block(120, 160, 120, 170)
     doubted = block(110, 170, 110, 200)
-    finding = told(BODY & ~gap, doubted)
-    assert finding is not None
-    assert "thighs" in shares(finding)
+    assert "thighs" in shares(told(BODY & ~gap, doubted))
     assert told(BODY & ~gap, doubted, arms=True) is None
 
 
 def test_a_part_of_whose_outline_hardly_anything_is_doubted_is_not_named():
     thing = block(118, 160, 100, 220)
-    finding = told(BODY | thing, block(119, 160, 90, 230))
-    assert finding is not None
-    assert shares(finding).keys() == {"thighs", "hips"}
-    finding = told(BODY | thing, block(120, 160, 90, 230))
-    assert finding is not None
-    assert shares(finding).keys() == {"thighs"}
+    assert shares(told(BODY | thing, block(119, 160, 90, 230))).keys() == {"thighs", "hips"}
+    assert shares(told(BODY | thing, block(120, 160, 90, 230))).keys() == {"thighs"}
 
 
 BROAD, NARROW = 1.05 * FAR_EARS * STATURE_PX, 0.95 * NEAR_EARS * STATURE_PX
 
 
-def squeeze(breadth: float | None, ears_px: float, *, shoulder_px: float = 124.0) -> str | None:
+def squeeze(
+    breadth: float | None, ears_px: float, *, shoulder_px: float = 124.0, dressed: bool = False
+) -> str | None:
     half = 0.5 * ears_px
     shown = person(
         left_ear=(200.0 + half, 76.0),
@@ -232,21 +230,22 @@ def squeeze(breadth: float | None, ears_px: float, *, shoulder_px: float = 124.0
         left_shoulder=(200.0 + 0.5 * shoulder_px, 140.0),
         right_shoulder=(200.0 - 0.5 * shoulder_px, 140.0),
     )
-    found = squeezed(capture(shown), breadth)
+    found = squeezed(capture(shown), breadth, dressed=dressed)
     assert all((each.code, each.severity) == (Code.SQUEEZED, Severity.HARMS) for each in found)
     return found[0].reason if found else None
 
 
 def test_head_and_ears_that_are_both_too_broad_or_both_too_narrow_are_told():
     assert "squeezed" in (squeeze(BROAD_HEAD + 0.01, BROAD) or "")
-    assert "stretched" in (squeeze(NARROW_HEAD - 0.01, NARROW) or "")
+    for dressed, narrowest in ((False, NARROW_HEAD), (True, NARROW_DRESSED)):
+        assert "stretched" in (squeeze(narrowest - 0.01, NARROW, dressed=dressed) or "")
+        assert squeeze(narrowest + 0.01, NARROW, dressed=dressed) is None
 
 
 @pytest.mark.parametrize(
     ("breadth", "ears_px"),
     [
         (1.0, BROAD),
-        (1.0, NARROW),
         # Long hair, and a mask that misses a part of the head.
         (BROAD_HEAD + 0.1, NARROW),
         (NARROW_HEAD - 0.1, BROAD),
