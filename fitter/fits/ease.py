@@ -60,8 +60,8 @@ SHORT_TOP, LONG_TOP, ANY_TOP, OUTER = 0.72, 2.0, 3.0, 5.0
 
 Of 32 real people seen from the front, what is worn over a top makes them 11 cm broader at 0.58 of
 their height, 5.4 cm a side beside the 2 of the top: 2.9 times the usual. But the population is
-heavier than these people, and where a jacket is widest no outline is found: with 5.0, waists in
-jackets are 1.9 cm nearer to those without than with 3.0, and 0.1 cm nearer than with 6.0. Where no
+heavier than these people, and where a jacket is widest no outline is found: with 3.0, waists in
+jackets are 5.9 cm larger than without, with 5.0 2.7 and with 6.0 2.5, but differ more. Where no
 detector tells, two of three long sleeves in the street are taken to be those of a jacket."""
 
 WORN_OVER, WORN_OVER_SPREAD = 0.36, 0.04

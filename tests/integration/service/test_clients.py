@@ -48,10 +48,10 @@ def test_a_picture_is_fitted_and_measured(maquette: Maquette, tmp_path: Path):
 
 
 def test_a_product_is_made_and_its_files_are_read(maquette: Maquette):
-    fit = maquette.fit(KNOWN, scripted_image({"product": {"seconds": 1.5}}))
+    fit = maquette.fit(KNOWN, scripted_image({"product": {"seconds": 3.0}}))
     seen: list[float] = []
     posed = maquette.product(fit, {"kind": "pose"}, on_progress=lambda so: seen.append(so.progress))
-    assert seen[0] == 0.5
+    assert 0.5 in seen
     assert maquette.file(posed, "body_reposed.glb").startswith(b"glTF")
     moved = maquette.product(fit, {"kind": "animation"}, bvh=BVH.encode())
     assert moved.kind == "animation"
