@@ -34,12 +34,6 @@ _READABLE: Final = re.compile(
     f"[^{_UNSEEN}{_BLANK}]*[^{_UNSEEN}{_BLANK}{_SPACES}{_ATTACHED}][^{_UNSEEN}{_BLANK}]*"
 )
 
-READABLE: Final = (
-    "Line breaks, control characters and others that are not seen are refused, and so is what has "
-    "nothing but spaces."
-)
-"""The rule in words, for descriptions of fields."""
-
 UNREADABLE: Final = "It has nothing but spaces, or characters that are not seen."
 READABLE_REMEDY: Final = (
     "Use letters, digits, signs and spaces; leave out line breaks and controls."

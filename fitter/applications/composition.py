@@ -80,6 +80,9 @@ def body_fat(
 def _estimated(
     regression: Regression, person: JointMeasurements, bmi: float, age: float | None
 ) -> BodyFat:
+    unknown = [name for name in regression.inputs if name not in person.names]
+    if unknown:
+        return BodyFat(regression, None, None, (f"The fit withholds {', '.join(unknown)}.",))
     chosen = person.of(regression.inputs)
 
     def percent(values: Values) -> float:

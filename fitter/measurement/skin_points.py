@@ -76,12 +76,6 @@ def load_skin_points() -> Mapping[str, SkinPoint]:
     }
 
 
-def direction_of(values: Sequence[float]) -> tuple[float, float, float]:
-    """A direction as the files list it."""
-    x, y, z = values
-    return float(x), float(y), float(z)
-
-
 def skin_rows(
     points: Sequence[SkinPoint],
     known: Mapping[str, Vector3],

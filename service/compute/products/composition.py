@@ -7,12 +7,13 @@ from api_schemas.products.documents import (
     CompositionResult,
 )
 from fitter.applications.composition import body_fat, body_mass_index
+from fitter.vocabulary.measurements import STATURE, WEIGHT
 from service.compute.products.finished_fit import FinishedFit, Made, Report, measured
 
 
 def make(fit: FinishedFit, options: CompositionOptions, report: Report) -> Made[CompositionResult]:
     """Estimate."""
-    person = measured(fit)
+    person = measured(fit, (WEIGHT, STATURE))
     report(0.5)
     estimates = tuple(
         BodyFatEstimate(

@@ -1,6 +1,6 @@
 """A finished fit, as what is made of it sees it, and what is made of one."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -14,6 +14,7 @@ from fitter.errors import InvalidInputError
 from fitter.fits.equipment import prepared_model
 from fitter.measurement.joint_measurements import JointMeasurements, joint_measurements
 from fitter.person.fitted_person import FittedPerson, require_model
+from fitter.vocabulary.remarks import Note, Remark
 from service.jobs.inputs import PERSON, RESULT
 
 Report = Callable[[float], None]
@@ -65,20 +66,21 @@ def finished_fit(
 
 
 class _Told(BaseModel):
-    """The part of a result's document that says which measurements were given."""
+    """The part of a result's document that says which measurements were given, and withheld."""
 
     measurements: tuple[Measurement, ...]
     outcome_explanation: str = ""
+    warnings: tuple[Remark, ...] = ()
 
 
-def measured(fit: FinishedFit) -> JointMeasurements:
-    """Measure the person of a fit, with what is known of the errors.
+def measured(fit: FinishedFit, needed: Sequence[str] = ()) -> JointMeasurements:
+    """Measure the person of a fit, with what is known of the errors; without what it withholds.
 
     Raises
     ------
     InvalidInputError
-        ``fit-unusable`` where the fit's measurements are withheld, or it does not know how certain
-        its shape is.
+        ``fit-unusable`` where all measurements or those that are ``needed`` are withheld, or the
+        fit does not know how certain its shape is.
     """
     told = _Told.model_validate_json(fit.files[RESULT])
     if not told.measurements:
@@ -86,18 +88,22 @@ def measured(fit: FinishedFit) -> JointMeasurements:
             f"That fit's measurements are withheld. {told.outcome_explanation}".rstrip(),
             "Fit its picture again with `force`.",
         )
-    person = fit.person
-    if person.shape_covariance is None:
+    hardly = [each for each in told.warnings if each.code == Note.MEASUREMENTS_WITHHELD]
+    withheld = {name for each in hardly for name in each.where}
+    if withheld & set(needed):
+        raise _unusable(hardly[0].reason, "Fit its picture again with the weight, or `force`.")
+    if fit.person.shape_covariance is None:
         reason = "The fit does not say how certain its shape is."
         raise _unusable(reason, "Fit the picture again, without `paper`.")
     given = [each for each in told.measurements if each.given]
-    return joint_measurements(
-        prepared_model(person.gender, models=fit.models).measuring,
-        person.body.shape,
-        shape_covariance=person.shape_covariance,
+    found = joint_measurements(
+        prepared_model(fit.person.gender, models=fit.models).measuring,
+        fit.person.body.shape,
+        shape_covariance=fit.person.shape_covariance,
         given=[each.name for each in given],
         held=[each.name for each in given if each.standard_error == 0.0],
     )
+    return found.of([name for name in found.names if name not in withheld])
 
 
 def _unusable(reason: str, remedy: str) -> InvalidInputError:

@@ -23,9 +23,6 @@ SIZE: Final = 1_024
 JPEG_QUALITY: Final = 92
 """0.2 MB where PNG has 1.3: beside 1 MB of mesh the texture of a moving body may be a copy."""
 
-_IMAGE: Final = of_view(0, IMAGE)
-_SEGMENTATION: Final = of_view(0, SEGMENTATION)
-
 
 def picture_on(fit: FinishedFit, *, without_light: bool, size: int) -> Texture:
     """The fit's picture as a texture of its body, or the albedo found in it.

@@ -20,11 +20,11 @@ from service.jobs.inputs import CHART
 
 def make(fit: FinishedFit, options: SizeOptions, report: Report) -> Made[SizeResult]:
     """Find the size."""
-    person = measured(fit)
-    report(0.5)
     sent = options.chart_csv
     chart = read_chart(fit.files[CHART] if sent is None else sent.encode())
     names = columns_of(chart)
+    person = measured(fit, names)
+    report(0.5)
     sizes = sizes_of(chart, names)
     answer = size_answer(sizes, person, options.ease)
     chances = tuple(

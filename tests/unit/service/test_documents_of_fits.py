@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from api_schemas.products.documents import EXAMPLE, ChartError, columns_of, read
 from fitter.fits.equipment import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender
+from fitter.vocabulary.remarks import Note, remark
 from service.compute.tasks import UnusableInputError
 from service.jobs.inputs import CHART, OVERLAY, PERSON, RESULT, of_view
 from tests.unit.service.finished_fit import made, person, png
@@ -68,6 +70,12 @@ def test_every_picture_is_shown():
     assert "Picture 2" in told
 
 
+def withholding(name: str) -> dict[str, bytes]:
+    """The document of a fit that says too little of a measurement."""
+    warning = remark(Note.MEASUREMENTS_WITHHELD, f"Withheld: {name}.", where=[name])
+    return {RESULT: fit_result(warnings=[asdict(warning)]).model_dump_json().encode()}
+
+
 CHART_CSV = "size,chest_girth,waist_girth_navel\nS,80-90,70-80\nM,90-100,80-90\nL,100-110,90-100\n"
 
 
@@ -118,9 +126,10 @@ def test_standard_errors_of_what_follows_are_those_of_the_measurements():
     ("changes", "says"),
     [
         ({RESULT: fit_result(measurements=()).model_dump_json().encode()}, "with `force`"),
+        (withholding("chest_girth"), "with the weight"),
         ({PERSON: person(shape_covariance=None).to_bytes()}, "without `paper`"),
     ],
-    ids=["withheld", "by the paper's method"],
+    ids=["withheld", "those of the chart withheld", "by the paper's method"],
 )
 def test_no_size_follows_where_measurements_or_their_errors_are_not_told(changes, says):
     with pytest.raises(UnusableInputError) as caught:
@@ -163,7 +172,7 @@ def test_what_is_not_of_the_form_is_refused_with_a_sentence(chart, says):
     assert caught.value.remedy
 
 
-def test_body_fat_says_why_it_is_withheld_for_the_young():
+def test_body_fat_says_why_it_is_withheld():
     adult, child = (made(kind="composition", age_years=age) for age in (30, 12))
     estimates = adult.result.model_dump()["estimates"]
     assert [each["name"] for each in estimates] == ["us_navy", "cun_bae"]
@@ -173,5 +182,9 @@ def test_body_fat_says_why_it_is_withheld_for_the_young():
     withheld = child.result.model_dump()["estimates"]
     assert [each["percent"] for each in withheld] == [None, None]
     assert all("years, not of 12" in each["withheld"][0] for each in withheld)
+    without_neck = made(kind="composition", age_years=30, files=withholding("neck_girth"))
+    navy, cun_bae = without_neck.result.model_dump()["estimates"]
+    assert "neck_girth" in navy["withheld"][0]
+    assert cun_bae["percent"] == estimates[1]["percent"]
     table = list(csv.DictReader(io.StringIO(adult.files["composition.csv"].decode())))
     assert [each["name"] for each in table] == ["us_navy", "cun_bae"]
