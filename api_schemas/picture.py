@@ -2,7 +2,7 @@
 
 from datetime import datetime
 from enum import StrEnum
-from typing import Annotated, Any, Final, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
@@ -123,7 +123,7 @@ class ClothingByRegion(WireModel):
     """Clothes on trunk and arms, and on seat and legs."""
 
     upper: Clothing = Clothing.AUTO
-    lower: Clothing = Clothing.AUTO
+    lower: Literal[Clothing.AUTO, Clothing.TIGHT, Clothing.LOOSE] = Clothing.AUTO
 
 
 def _clothing_kind(value: object) -> str:
@@ -166,10 +166,10 @@ class ViewRequest(Lens):
     clothing: SaidClothing = Field(
         default=Clothing.AUTO,
         description=(
-            "How clothes lie on the whole person, or on the upper body and on the lower. Give the "
-            "weight if it is known."
+            "How clothes lie on the whole person, or on the upper body and on the lower; `outer`: "
+            "a jacket or open shirt over a top. Give the weight if it is known."
         ),
-        examples=["loose", {"upper": "loose", "lower": "tight"}],
+        examples=["loose", {"upper": "outer", "lower": "tight"}],
     )
     light: Light = Field(default=Light(), description="Where about the light is.")
     image_id: ImageId | None = Field(

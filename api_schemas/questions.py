@@ -21,7 +21,7 @@ from api_schemas.results import (
     Measurement,
 )
 from fitter.vocabulary.choices import Facing, Gender, ViewKind
-from fitter.vocabulary.outcomes import FocalLengthSource, LimbFacing, SeenFrom
+from fitter.vocabulary.outcomes import ClothingGuess, FocalLengthSource, LimbFacing, SeenFrom
 from fitter.vocabulary.points import PointName
 from fitter.vocabulary.remarks import Box, Remark
 
@@ -131,7 +131,8 @@ class PointsProposal(WireModel):
     ``findings`` are those of a fit of the picture, most important first, and it is ``usable`` if
     none ``blocks``; ``not_checked`` has those that nothing can be said of. ``lean_deg`` is how far
     the person leans to the right of the picture from ankles to shoulders, null unless they stand
-    upright; ``distance_m`` how far the camera was, null unless the focal length is known.
+    upright; ``distance_m`` how far the camera was, null unless the focal length is known;
+    ``clothing`` how clothes look, in a word that the request of a fit may say: never ``auto``.
 
     Codes: ``nobody-found``, ``several-people``, ``cut-off``, ``person-too-small``,
     ``picture-too-small``, ``other-view``, ``arms-against-trunk``, ``clothes-loose``, ``blurred``,
@@ -159,5 +160,6 @@ class PointsProposal(WireModel):
     seen_from: SeenFrom | None
     lean_deg: float | None
     distance_m: float | None
+    clothing: ClothingGuess | None
     assumptions: tuple[Remark, ...]
     warnings: tuple[Remark, ...]

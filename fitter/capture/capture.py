@@ -119,6 +119,8 @@ class Capture:
         Given or assumed.
     clothing
         How each region in sight is covered; None where it cannot be told.
+    over_top
+        Probability that something is worn over a top; None where that is not asked or not known.
     directions
         How trunk and limbs of a fitted body lie; None before a fit.
     """
@@ -136,6 +138,7 @@ class Capture:
     height_m: float
     is_clicked: bool = False
     clothing: tuple[WornRegion, ...] | None = None
+    over_top: float | None = None
     directions: Directions | None = None
 
     @property

@@ -18,7 +18,7 @@ from fitter.capture.people import face, nobody_else, proportions, somebody
 from fitter.capture.picture_quality import brightness, darkness, sharpness
 from fitter.capture.posture import announced_view, arms, facing, posture, seen_from
 from fitter.vocabulary.outcomes import SeenFrom
-from fitter.vocabulary.remarks import Box, Code, Remark, Severity, unchecked
+from fitter.vocabulary.remarks import Box, Code, Remark, Severity
 
 Check = Callable[[Capture], Remark | None]
 
@@ -43,18 +43,6 @@ CHECKS_OF_PERSON: tuple[Check, ...] = (
     distance,
 )
 """Made where somebody was found."""
-
-CODES_OF_PERSON = (
-    Code.CUT_OFF,
-    Code.PERSON_TOO_SMALL,
-    Code.FACE_HIDDEN,
-    Code.ARMS_AGAINST_TRUNK,
-    Code.CLOTHES_LOOSE,
-    Code.NOT_STANDING,
-    Code.CHILD,
-    Code.CAMERA_ROLLED,
-    Code.CAMERA_TOO_NEAR,
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,5 +101,4 @@ def _remarks(capture: Capture) -> list[Remark]:
         # A face that is not found in a blurred picture need not be hidden.
         checks = [check for check in CHECKS_OF_PERSON if not (blurred and check is face)]
         return made + [remark for check in checks if (remark := check(capture)) is not None]
-    codes = CODES_OF_PERSON if capture.view is None else (*CODES_OF_PERSON, Code.OTHER_VIEW)
-    return made + [unchecked(code, "Nobody was found.") for code in codes]
+    return made

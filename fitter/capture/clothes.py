@@ -1,11 +1,11 @@
-"""Whether loose clothes hide the body, as the fit sees them too."""
+"""Whether loose clothes hide the body, as the fit sees them too, and what may be said of them."""
 
 from collections.abc import Sequence
 from typing import Final
 
 from fitter.capture.capture import Capture
-from fitter.vocabulary.choices import BodyRegion, Covering
-from fitter.vocabulary.outcomes import WornRegion
+from fitter.vocabulary.choices import BodyRegion, Clothing, Covering
+from fitter.vocabulary.outcomes import ClothingGuess, WornRegion
 from fitter.vocabulary.remarks import Code, Remark, Severity, remark, unchecked
 
 _WORDS: Final = {
@@ -20,6 +20,8 @@ _JOINTS: Final = {
     BodyRegion.LOWER: ("hip", "knee"),
     BodyRegion.LEGS: ("knee", "ankle"),
 }
+
+_PROBABLY: Final = 0.5
 
 
 def clothes(capture: Capture) -> Remark | None:
@@ -42,7 +44,7 @@ def clothes(capture: Capture) -> Remark | None:
         return None
     return remark(
         Code.CLOTHES_LOOSE,
-        f"Loose clothes cover {_listed([_WORDS[region] for region in loose])}, with a "
+        f"Loose clothes cover {listed([_WORDS[region] for region in loose])}, with a "
         f"probability of {100.0 * min(loose.values()):.0f} %: the body under them is estimated.",
         severity=Severity.HARMS,
         where=tuple(
@@ -51,6 +53,26 @@ def clothes(capture: Capture) -> Remark | None:
             for joint in _JOINTS[region]
             for side in ("left", "right")
         ),
+    )
+
+
+def clothing_guess(capture: Capture) -> ClothingGuess | None:
+    """Clothes as they look; None where no outline is cut out, or nobody is found."""
+    if capture.mask is None or capture.stature_px is None:
+        return None
+    if capture.over_top is not None and capture.over_top > _PROBABLY:
+        return ClothingGuess(
+            kind=Clothing.OUTER,
+            reason="The network of what is worn sees a jacket, coat, vest or open shirt over a top,"
+            f" with a probability of {100.0 * capture.over_top:.0f} %.",
+        )
+    doubt = clothes(capture)
+    if doubt is not None:
+        return ClothingGuess(kind=Clothing.LOOSE, reason=doubt.reason)
+    return ClothingGuess(
+        kind=Clothing.TIGHT,
+        reason="Trunk and legs show the colour of the person's skin, or are as narrow as in close "
+        "clothes.",
     )
 
 
@@ -63,6 +85,7 @@ def _loose(clothing: Sequence[WornRegion]) -> dict[BodyRegion, float]:
     }
 
 
-def _listed(words: list[str]) -> str:
+def listed(words: Sequence[str]) -> str:
+    """Words as a sentence has them: with commas, and an "and" before the last."""
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last

@@ -28,7 +28,7 @@ class LooseClothes:
     learnt_from
         What the skin's colour was learnt from: ``face``, ``hands``, or nothing.
     looks_undressed
-        Whether trunk and thighs show so much of that colour that there may be no loose clothes.
+        Whether trunk and legs show so much of that colour that there may be no loose clothes.
     over_top
         Whether something is worn over a top; None where that is not known.
     """

@@ -5,12 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitter.arrays import Image, Points3D
+from fitter.arrays import GreyImage, Image, Points3D
 from fitter.capture.capture import Capture, Directions
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.energies.objective import Candidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
+from fitter.fits.ease import worn_over
 from fitter.fits.outline_search import PictureSearch
 from fitter.observation.clicks import check_places, scaled_clicks
 from fitter.observation.decoding import DecodedPicture
@@ -91,7 +92,10 @@ def capture_of(
         focal_length_px=focal.pixels * size.scale if known else None,
         height_m=_height_m(question),
     )
-    return replace(capture, clothing=_clothing(capture, linear_rgb, question.gender))
+    if detector is None or capture.body is None or capture.stature_px is None:
+        return capture
+    outer_cloth = detector.outer_cloth(working, capture.body.person)
+    return _with_clothing(capture, linear_rgb, outer_cloth, question.gender)
 
 
 def capture_of_fit(
@@ -149,12 +153,12 @@ def directions_of(joints: Points3D, part_names: Sequence[str]) -> Directions:
     }
 
 
-def _clothing(
-    capture: Capture, linear_rgb: Image, gender: Gender | None
-) -> tuple[WornRegion, ...] | None:
-    """Covering of each region, by parts that are told by the bones."""
-    if capture.mask is None or capture.stature_px is None:
-        return None
+def _with_clothing(
+    capture: Capture, linear_rgb: Image, outer_cloth: GreyImage | None, gender: Gender | None
+) -> Capture:
+    """The same with the covering of each region, by parts that are told by the bones."""
+    assert capture.mask is not None
+    assert capture.stature_px is not None
     pixels_per_metre = capture.stature_px / capture.height_m
     step = max(int(pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
     person = np.ascontiguousarray(capture.mask[::step, ::step])
@@ -167,12 +171,15 @@ def _clothing(
         face=np.mean(face, axis=0) if face else None,
         pixels_per_metre=pixels_per_metre / step,
     )
-    return clothing_seen(
+    clothing = clothing_seen(
         np.ascontiguousarray(linear_rgb[::step, ::step]),
         regions,
         part_joints(points),
         gender=None if gender is None else gender.value,
     )
+    over = worn_over(None if outer_cloth is None else outer_cloth[::step, ::step], regions)
+    over_top = None if over is None else float(over.max())
+    return replace(capture, clothing=clothing, over_top=over_top)
 
 
 def _is_seen(capture: Capture, name: str) -> bool:

@@ -14,7 +14,7 @@ from fitter.body.model import regress
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import IntensityMap, seen_vertices
 from fitter.evidence.loose_outline import LooseClothes
-from fitter.fits.clothing_report import worn_regions
+from fitter.fits.clothing_report import SAID_LOOSE, worn_regions
 from fitter.fits.ease import ease_map, shares_by_sleeves, worn_over
 from fitter.fits.equipment import PreparedModel
 from fitter.observation.maps import sample
@@ -25,7 +25,6 @@ from fitter.request import SaidClothing
 from fitter.segmentation.coverage import Coverage, coverage
 from fitter.segmentation.leg_looseness import legs_are_loose
 from fitter.segmentation.skin_colour import (
-    LEAST_SAMPLES,
     PersonRegions,
     SkinMap,
     face_point,
@@ -52,15 +51,10 @@ CLOSE_FULLNESS = 0.15
 """Ease of close clothes, as a share of that of loose ones."""
 
 _OF_LEGS = frozenset({"thigh", "shin", "foot"})
-_SAID = {Clothing.TIGHT: 0.0, Clothing.LOOSE: 1.0}
+_SAID = {Clothing.TIGHT: 0.0, Clothing.LOOSE: 1.0, Clothing.OUTER: 1.0}
 LEAST_PIXELS_PER_METRE = 120.0
 _SEEN_WITHIN_M = 0.02
 _BARE = 0.5
-
-_UNDRESSED = (("pelvis", "spine", "chest"), ("left_thigh", "right_thigh"))
-_UNDRESSED_SHARE = 0.25
-# Share of each group of parts. On the tuning half, people in underwear show at least 0.54 of the
-# trunk and 0.35 of the thighs in their skin's colour; those in loose clothes at most 0.08 and 0.12.
 
 
 def dressed(
@@ -84,14 +78,17 @@ def dressed(
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
     skin = _skin(observation.linear_rgb, regions)
-    covered = _coverage(skin, regions, said, gender=prepared.searched.model.gender)
-    if Clothing.LOOSE not in said.both and covered.anything < LEAST_COVERED:
+    seen = coverage(skin, regions, prepared.searched.model.gender)
+    covered = _as_said(seen, said)
+    if not SAID_LOOSE & said.both and covered.anything < LEAST_COVERED:
         worn = worn_regions(regions, skin, covered, bare=None, loose=None)
         return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=worn))
-    bare = skin.probability if said.both == {Clothing.LOOSE} else covered.bare(skin, regions)
+    bare = skin.probability if said.both <= SAID_LOOSE else covered.bare(skin, regions)
     loose = _loose(said, regions, bare, _joints_seen(rendering, prepared), skin)
     cloth = (1.0 - bare).astype(np.float32)
     over = worn_over(observation.outer_cloth, regions)
+    if said.upper is Clothing.OUTER:
+        over = np.ones_like(cloth)
     fullness = CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose
     return replace(
         objective,
@@ -106,7 +103,7 @@ def dressed(
             clothes=LooseClothes(
                 bare=1.0 - sample(cloth, rendering.projected)[0],
                 learnt_from=skin.learnt_from,
-                looks_undressed=looks_undressed(skin, regions),
+                looks_undressed=seen.anything < LEAST_COVERED,
                 over_top=None if over is None else bool(over.max() > _BARE),
             ),
             worn=worn_regions(regions, skin, covered, bare=bare, loose=loose),
@@ -136,7 +133,7 @@ def clothing_seen(
     skin = _skin(linear_rgb, regions)
     if not skin.learnt_from:
         return None
-    covered = _coverage(skin, regions, said, gender=gender)
+    covered = coverage(skin, regions, gender)
     if covered.anything < LEAST_COVERED:
         return worn_regions(regions, skin, covered, bare=None, loose=None)
     bare = covered.bare(skin, regions)
@@ -162,21 +159,6 @@ def where_bare(
     share = float(areas[seen_bare].sum()) / max(float(areas[seen].sum()), 1e-12)
     scales = replace(objective.scales, shading_weight=share * objective.scales.shading_weight)
     return replace(objective, scales=scales), bare
-
-
-def looks_undressed(skin: SkinMap, regions: PersonRegions) -> bool:
-    """Whether trunk and thighs both show much of the skin's colour, as in underwear.
-
-    False where either is out of sight: a bare chest above wide trousers is no mistake.
-    """
-    for group in _UNDRESSED:
-        numbers = [regions.part_names.index(name) for name in group]
-        seen = regions.person & np.isin(regions.parts, numbers)
-        if np.count_nonzero(seen) < LEAST_SAMPLES:
-            return False
-        if np.mean(skin.coloured[seen]) < _UNDRESSED_SHARE:
-            return False
-    return True
 
 
 def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
@@ -210,12 +192,8 @@ def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
     )
 
 
-def _coverage(
-    skin: SkinMap, regions: PersonRegions, said: SaidClothing, *, gender: str | None
-) -> Coverage:
-    """Coverage as the caller says, else as the picture shows."""
-    found = coverage(skin, regions, gender)
-    if said.upper is Clothing.LOOSE:
+def _as_said(found: Coverage, said: SaidClothing) -> Coverage:
+    if said.upper in SAID_LOOSE:
         found = replace(found, top=1.0)
     return replace(found, bottom=1.0) if said.lower is Clothing.LOOSE else found
 

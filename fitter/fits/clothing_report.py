@@ -12,7 +12,7 @@ from fitter.measurement.definitions import INTERVAL_SD
 from fitter.optimizer.uncertainty import Certainty, covered_distances, waist_distance
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions, SkinMap
-from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
+from fitter.vocabulary.choices import BodyRegion, Clothing, Covering
 from fitter.vocabulary.measurements import CENTIMETRES_PER_METRE
 from fitter.vocabulary.outcomes import WornRegion
 from fitter.vocabulary.remarks import Code, Note, Remark, remark
@@ -26,12 +26,9 @@ PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
 }
 """Parts of the body model by region, by the last word of their names."""
 
+SAID_LOOSE: Final = frozenset({Clothing.LOOSE, Clothing.OUTER})
 _UNDER_TOP: Final = frozenset({BodyRegion.UPPER, BodyRegion.ARMS})
 _MOST_OF: Final = 0.5
-_EASES: Final[Mapping[BodyRegion, ClothedRegion]] = {
-    BodyRegion.UPPER: ClothedRegion.UPPER,
-    BodyRegion.LOWER: ClothedRegion.LOWER,
-}
 
 
 def worn_regions(
@@ -108,7 +105,7 @@ def with_ease(
     distances = covered_distances(objective, certain)
     found: list[WornRegion] = []
     for each in worn:
-        told = distances.get(_EASES[each.region]) if each.region in _EASES else None
+        told = distances.get(each.region)
         ease_cm, error_cm = None, None
         if each.kind is Covering.LOOSE and told is not None:
             ease_cm, error_cm = (round(CENTIMETRES_PER_METRE * metres, 1) for metres in told)
@@ -133,7 +130,7 @@ def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[
     """Doubts about how clothes were taken; empty for tight ones."""
     clothes = objective.evidence.clothes
     undressed = clothes is not None and clothes.looks_undressed
-    return (_NOT_LOOSE,) if Clothing.LOOSE in said and undressed else ()
+    return (_NOT_LOOSE,) if SAID_LOOSE & said and undressed else ()
 
 
 def with_what_is_worn(

@@ -14,12 +14,14 @@ from jaxtyping import UInt8
 
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.checking import Checked, check_capture
+from fitter.capture.clothes import clothing_guess
 from fitter.detection.detector import DetectedBody, Detector
 from fitter.fits.capture_check import CaptureQuestion, assumed_height, capture_of
 from fitter.observation.clicks import scaled_clicks
 from fitter.observation.decoding import decode_picture
 from fitter.observation.subject import check_height
 from fitter.request import Click
+from fitter.vocabulary.outcomes import ClothingGuess
 from fitter.vocabulary.remarks import Box, Note, Remark, remark
 
 
@@ -58,6 +60,8 @@ class Proposal:
         (height, width) 8 bits, probability that a pixel shows the person; None unless asked for.
     checked
         What the checks say, as of a fit of the picture.
+    clothing
+        How the clothes look; None where nobody was found.
     assumptions
         What the checks assumed.
     warnings
@@ -71,6 +75,7 @@ class Proposal:
     points: Mapping[str, ProposedPoint]
     mask: UInt8[np.ndarray, "h w"] | None
     checked: Checked
+    clothing: ClothingGuess | None
     assumptions: tuple[Remark, ...]
     warnings: tuple[Remark, ...]
 
@@ -114,6 +119,7 @@ def propose(
         points={} if body is None else _points(body, capture.scale),
         mask=_mask(body, capture) if with_mask and body is not None else None,
         checked=check_capture(capture),
+        clothing=clothing_guess(capture),
         assumptions=assumed_height(question, capture.height_m),
         warnings=picture.warnings + (() if body is None else proposal_warnings(body.points)),
     )

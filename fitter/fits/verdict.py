@@ -21,6 +21,7 @@ from jaxtyping import Integer, Shaped
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture
 from fitter.capture.checking import check_capture
+from fitter.capture.clothes import listed
 from fitter.capture.posture import is_broadside
 from fitter.energies.objective import Objective
 from fitter.evidence.doubtful_outline import off_the_body, scale_of
@@ -291,7 +292,7 @@ def obstruction(
         remark(
             Code.COVERED,
             "Something covers the person, touches their outline or looks like them: of the "
-            f"outline {_listed(said)} does not count.",
+            f"outline {listed(said)} does not count.",
             severity=Severity.HARMS,
         ),
     )
@@ -356,8 +357,3 @@ def _outline(silhouette: Mask) -> Mask:
     """(h, w) the outermost pixels; the picture's own border bounds nothing."""
     region = silhouette.astype(np.uint8)
     return silhouette & (cv2.erode(region, np.ones((3, 3), np.uint8)) == 0)
-
-
-def _listed(words: Sequence[str]) -> str:
-    *others, last = words
-    return f"{', '.join(others)} and {last}" if others else last

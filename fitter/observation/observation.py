@@ -173,8 +173,11 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
 
 
 def _said_by_region(clothing: Clothing | SaidClothing) -> SaidClothing:
+    """Clothes by region; what is worn over a top tells nothing of the legs."""
     if isinstance(clothing, SaidClothing):
         return clothing
+    if clothing is Clothing.OUTER:
+        return SaidClothing(upper=clothing)
     return SaidClothing(upper=clothing, lower=clothing)
 
 

@@ -27,7 +27,7 @@ from fitter.optimizer.normal_equations import (
     support_points,
 )
 from fitter.parameters import CameraTilt
-from fitter.vocabulary.choices import ClothedRegion
+from fitter.vocabulary.choices import BodyRegion
 from fitter.vocabulary.outcomes import StanceKind
 
 _FEWEST_LINES: Final = 5.0
@@ -143,14 +143,14 @@ def camera_tilt(certain: Certainty) -> CameraTilt:
 
 def covered_distances(
     objective: Objective, certain: Certainty
-) -> dict[ClothedRegion, tuple[float, float]]:
+) -> dict[BodyRegion, tuple[float, float]]:
     """Distance of the outline from the body under loose cloth, and its standard error, metres.
 
     The mean over the lines of upper body and legs, each counted as far as it shows cloth. Empty
     where the outline was not found on lines; regions that show none are left out.
     """
     lines, candidate = objective.evidence.lines, certain.candidate
-    found: dict[ClothedRegion, tuple[float, float]] = {}
+    found: dict[BodyRegion, tuple[float, float]] = {}
     if lines is None or not lines.cloth.any():
         return found
     outline = line_rows(candidate.rendering, lines, objective.scales)[0]
@@ -158,7 +158,7 @@ def covered_distances(
     on = support_points(objective, candidate)[outline.support]
     shares = lines.fullness / np.maximum(lines.fullness.sum(axis=1, keepdims=True), 1e-9)
     pixels_per_metre = objective.scales.pixels_per_metre
-    for region, share in zip(ClothedRegion, shares.T, strict=True):
+    for region, share in zip((BodyRegion.UPPER, BodyRegion.LOWER), shares.T, strict=True):
         weights = lines.confidence * lines.cloth * share
         if weights.sum() < _FEWEST_LINES:
             continue

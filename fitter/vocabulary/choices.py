@@ -57,19 +57,14 @@ class Clothing(StrEnum):
     ``auto``: what is covered, and whether loosely, is found in the picture. ``tight``: the outline
     is the body's own. ``loose``: the outline bounds the body from outside, by an ease that is not
     known; where skin shows, which the person's own face and hands tell, it is tight, and shading
-    looks at skin alone.
+    looks at skin alone. ``outer``: loose, with a jacket, coat, vest or open shirt over a top; of
+    seat and legs it says nothing.
     """
 
     AUTO = "auto"
     TIGHT = "tight"
     LOOSE = "loose"
-
-
-class ClothedRegion(StrEnum):
-    """Region whose clothing can be given on its own: trunk with arms, or seat with legs."""
-
-    UPPER = "upper"
-    LOWER = "lower"
+    OUTER = "outer"
 
 
 class Covering(StrEnum):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from fitter.vocabulary.choices import BodyRegion, Covering, Facing
+from fitter.vocabulary.choices import BodyRegion, Clothing, Covering, Facing
 
 
 class Outcome(StrEnum):
@@ -90,3 +90,11 @@ class WornRegion:
     probability: float
     ease_cm: float | None
     ease_standard_error_cm: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClothingGuess:
+    """Clothes as they look, in the word that a request may say of them, and why."""
+
+    kind: Clothing
+    reason: str

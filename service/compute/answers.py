@@ -220,6 +220,7 @@ def _points_proposal(found: Proposal) -> wire.PointsProposal:
         seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
+        clothing=found.clothing,
         assumptions=found.assumptions,
         warnings=found.warnings,
     )

@@ -17,7 +17,6 @@ IMAGE: Final = "image"
 MASK: Final = "mask"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
-BODY_POSED: Final = "body_posed.glb"
 
 CLIP: Final = "bvh"
 """A motion sent with the request for a product."""

@@ -111,7 +111,7 @@ def scanned(pair: Pair, *, proposed: bool = False) -> list[Scanned]:
     told = {"": Told(proposed=proposed)}
     told[", weight"] = Told(proposed=proposed, measurements=("weight",))
     if pair.dressed:
-        for said in sorted(set(Clothing) - {Clothing.AUTO}):
+        for said in (Clothing.LOOSE, Clothing.TIGHT):
             told[f", said {said}"] = Told(proposed=proposed, clothing=said)
     return [
         each for said, what in told.items() for each in _by_all_views(pair, pictures, said, what)

@@ -67,11 +67,11 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     expect(page.get_by_role("alert")).to_contain_text("128 × 96 pixels, the picture 720 × 960")
     page.get_by_label("Choose a mask").set_input_files(mask)
     expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
-    visitor.choose("Loose clothes")
+    visitor.choose("Jacket on top")
     asked = visitor.sent_request()
     assert asked["measurements"] == {"hip_girth": {"value": 98, "standard_error": 1}}
     (view,) = asked["views"]
-    assert view["clothing"] == "loose"
+    assert view["clothing"] == "outer"
     assert len(view["mask_id"]) == 64
     visitor.wait_for_result()
     job = service.get(f"/v1/fits/{page.url.rpartition('/')[2]}").json()
@@ -86,7 +86,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
     page.get_by_role("heading", name="Lens, shading and mask").click()
     expect(page.get_by_text("the mask of that result is used")).to_be_visible()
-    expect(page.get_by_role("radio", name="Loose clothes", exact=True)).to_be_checked()
+    expect(page.get_by_role("radio", name="Jacket on top", exact=True)).to_be_checked()
 
 
 def test_a_fit_in_feet_and_pounds_reaches_its_result(visitor: Visitor):

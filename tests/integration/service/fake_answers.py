@@ -87,6 +87,7 @@ def points(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
             seen_from=None,
             lean_deg=None,
             distance_m=None,
+            clothing=None,
             assumptions=(),
             warnings=(),
         )

@@ -52,7 +52,6 @@ from service.compute.tasks import (
 )
 from service.jobs.inputs import (
     BODY,
-    BODY_POSED,
     CLIP,
     OVERLAY,
     PERSON,
@@ -111,7 +110,7 @@ def fit_result(asked: FitRequest) -> FitResult:
 def result_files(images: Sequence[bytes]) -> dict[str, bytes]:
     files = {"body_canonical.glb": b"glTF" + bytes(range(256)), BODY: b"PNG", PERSON: images[0]}
     for number, image in enumerate(images):
-        files[of_view(number, BODY_POSED)] = b"glTF" + bytes([number])
+        files[of_view(number, "body_posed.glb")] = b"glTF" + bytes([number])
         files[of_view(number, OVERLAY)] = image
         files[of_view(number, SEGMENTATION)] = b"PNG"
     return files

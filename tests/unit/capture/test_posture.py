@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.capture.clothes import clothes
+from fitter.capture.clothes import clothes, clothing_guess
 from fitter.capture.people import proportions
 from fitter.capture.posture import (
     announced_view,
@@ -19,7 +19,7 @@ from fitter.capture.posture import (
     seen_from,
 )
 from fitter.detection.detector import DetectedBody, LimbSlant
-from fitter.vocabulary.choices import BodyRegion, Covering, ViewKind
+from fitter.vocabulary.choices import BodyRegion, Clothing, Covering, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, WornRegion
 from fitter.vocabulary.remarks import Code, Severity
 from tests.unit.capture.made_up import (
@@ -302,6 +302,23 @@ def test_close_clothes_sleeves_and_shoes_are_no_fault():
 
 def test_without_an_outline_clothes_are_not_checked():
     assert is_unchecked(clothes(by_points_alone()))
+    assert clothing_guess(by_points_alone()) is None
+
+
+@pytest.mark.parametrize(
+    ("seen", "over_top", "kind", "because"),
+    [
+        (worn(upper=Covering.CLOSE, lower=Covering.BARE), 0.2, Clothing.TIGHT, "skin"),
+        (worn(upper=Covering.LOOSE), 0.2, Clothing.LOOSE, "the upper body"),
+        (None, None, Clothing.LOOSE, "Neither face nor hands"),
+        (worn(upper=Covering.LOOSE), 0.8, Clothing.OUTER, "80 %"),
+    ],
+)
+def test_clothes_are_guessed_in_a_word_of_requests_with_its_reason(seen, over_top, kind, because):
+    guess = clothing_guess(capture(clothing=seen, over_top=over_top))
+    assert guess is not None
+    assert guess.kind is kind
+    assert because in guess.reason
 
 
 def test_without_the_skins_colour_it_is_said_that_clothes_cannot_be_seen():

@@ -33,6 +33,7 @@ export const FOUND: PointsProposal = {
   seen_from: null,
   lean_deg: null,
   distance_m: null,
+  clothing: null,
   assumptions: [],
   warnings: [],
 };

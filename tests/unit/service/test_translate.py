@@ -3,7 +3,7 @@ import math
 from collections.abc import Mapping
 
 import pytest
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
 from api_schemas.fit import FitRequest
 from api_schemas.points import Points, named_points
@@ -64,6 +64,8 @@ def test_clothing_may_be_said_of_a_region_alone():
     assert view.clothing == fitter_request.SaidClothing(
         upper=fitter_request.Clothing.LOOSE, lower=fitter_request.Clothing.AUTO
     )
+    with pytest.raises(ValidationError):
+        translated(clothing={"lower": "outer"})
 
 
 def test_the_papers_own_method_is_passed_on_where_it_is_asked_for():

@@ -90,7 +90,7 @@ export function loadView(view: DraftView, asked: ViewRequest): void {
     if (asked.view) view.view.value = asked.view;
     view.focalLength.value = lensOf(asked, view.picture);
     view.facing.value = asked.limb_facing ?? {};
-    if (asked.clothing === "tight" || asked.clothing === "loose") view.clothing.value = asked.clothing;
+    if (typeof asked.clothing === "string") view.clothing.value = asked.clothing;
   });
 }
 

@@ -106,14 +106,9 @@ function assumedHeight(): string {
   return body ? said.assumedHeight(heightInWords(body.height_m, person.value.units)) : said.meanHeight;
 }
 
-/** What in a picture says that clothes stand off the body, or may. */
-const LOOSE = ["clothes-loose", "skin-not-found"];
-
 /** As they are seen until somebody says otherwise: what is seen is judged by region, and more finely than a word. */
 function Clothes() {
   const { clothes } = messages.panel;
-  const found = proposal.value;
-  const seen = found && found.person !== null ? (found.findings.some(({ code }) => LOOSE.includes(code)) ? "loose" : "tight") : null;
   return (
     <Choice
       name="clothing"
@@ -121,8 +116,9 @@ function Clothes() {
       options={[
         { value: "tight", ...clothes.tight },
         { value: "loose", ...clothes.loose },
+        { value: "outer", ...clothes.outer },
       ]}
-      value={clothing.value === "auto" ? seen : clothing.value}
+      value={clothing.value === "auto" ? (proposal.value?.clothing?.kind ?? null) : clothing.value}
       onChange={(value) => {
         for (const view of views.value) view.clothing.value = value;
       }}
