@@ -155,7 +155,7 @@ def test_tapes_are_labelled_and_marked_from_the_table_and_from_the_body(
     # No tape was laid about another body.
     page.get_by_text("Try another weight or waist").click()
     page.locator(".what-if input").first.fill("5")
-    expect(page.locator(".what-if")).to_contain_text(re.compile(r"Most probably, then: Chest \d"))
+    expect(page.locator(".what-if")).to_contain_text(re.compile(r"Most likely, then: Chest \d"))
     expect(hip).to_have_count(0)
 
 

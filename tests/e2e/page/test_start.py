@@ -79,7 +79,7 @@ def test_the_body_turns_unless_motion_is_unwanted_and_can_be_held(visitor: Visit
     expect(strip).to_have_css("animation-play-state", "running")
 
 
-NO_CONNECTION = "You are offline."
+NO_CONNECTION = "There is no connection to the service."
 GOES_ON = "There is no connection. The service goes on"
 
 

@@ -14,7 +14,7 @@ export const answers = {
     unreachable: "The service does not answer",
   },
   faults: {
-    "database-unavailable": "The service cannot reach its database just now. Try again in a moment.",
+    "database-unavailable": "The service cannot reach its database right now. Try again in a moment.",
     "database-damaged": "The service’s database is damaged. Whoever runs it has to put a copy back.",
     "disk-full": "The service’s disk is nearly full. Try again later.",
     draining: "The service is being restarted. Try again in a moment.",
@@ -37,7 +37,7 @@ export const answers = {
     "mask-without-foreground": "This mask is all black. The person should be white.",
     "no-light": "No light was found that could be taken out of the picture. Measure by outline and shading, or choose the colours as photographed.",
     "no-process": "The service could not begin. Try again.",
-    "no-worker": "The service measures nobody just now. Try again in a moment.",
+    "no-worker": "The service cannot measure anyone right now. Try again in a moment.",
     "not-an-image": "This is not a picture. Choose a JPEG, PNG or WebP.",
     "not-found": "It does not exist, or it was erased.",
     "person-not-found":
@@ -46,7 +46,7 @@ export const answers = {
     "points-too-close": "All points are close together. Crop the picture to the person, or check the points.",
     "queue-full": "Too many pictures are waiting. Try again in a moment.",
     "storage-full": "The service’s storage is full. Try again later.",
-    "storage-unavailable": "The service cannot reach its storage just now. Try again in a moment.",
+    "storage-unavailable": "The service cannot reach its storage right now. Try again in a moment.",
     "submission-lost": "The request was lost. Send it again.",
     "time-limit-exceeded": "It took too long and was stopped. Try a smaller picture, or the outline alone.",
     "unknown-image": "The picture is no longer kept; it may have expired. Send it once more.",

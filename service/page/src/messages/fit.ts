@@ -13,5 +13,5 @@ export const fit = {
   picture: (number: number) => `Picture ${number}`,
   cancel: "Cancel",
   stopping: "Stopping …",
-  forget: "Forget it here",
+  forget: "Remove from the history",
 } as const;

@@ -24,8 +24,8 @@ export const frame = {
   list: {
     title: "History",
     none: "Nothing yet.",
-    takeOff: (name: string) => `Take ${name} off the history`,
-    note: "Only this browser keeps this history. The service erases results after a while, and at once what you delete.",
+    takeOff: (name: string) => `Remove ${name} from the history`,
+    note: "This history is kept in this browser alone. The service erases results after a while, or at once when you delete them.",
     waist: (girth: string) => `Waist ${girth}`,
     states: {
       queued: "Waiting",
@@ -38,7 +38,7 @@ export const frame = {
   },
   assumed: {
     lens: (length: string) => `A lens of ${length} (as on 35 mm film) is assumed, since the picture does not name it.`,
-    height: (height: string) => `A height of ${height} is assumed. Give the real one: all else follows it.`,
+    height: (height: string) => `A height of ${height} is assumed. Give the real one: all else scales with it.`,
     points: (count: number) =>
       plural(count, {
         one: "One point was found automatically. Check it if something looks wrong.",

@@ -3,10 +3,10 @@ export const howto = {
   title: "For good measurements",
   rules: [
     "Tight clothes or underwear, hair tied up, no shoes.",
-    "Phone upright and level, at belly height, two to three metres away; stood on something or held by somebody.",
-    "Head to feet in the picture, with some room around.",
+    "Phone upright and level, at belly height, two to three metres away; set on something or held by someone.",
+    "Head to feet in the picture, with some room all around.",
     "Light from the camera’s side, in front of a wall of another colour than skin and clothes.",
-    "Breathe out, stand relaxed, do not draw in the belly. Both pictures from the same place: turn yourself, not the camera.",
+    "Breathe out, stand relaxed, do not pull in the belly. Both pictures from the same place: turn yourself, not the camera.",
     "Pictures from the phone’s own camera app, chosen as files, are best: they say which lens took them.",
   ],
   good: (what: string) => `Good: ${what}`,

@@ -4,10 +4,10 @@ import { plural } from "./figures";
 export const panel = {
   title: "Your photo",
   submit: "Measure",
-  cutOff: "You are offline. You can go on; everything is sent when the connection is back.",
+  cutOff: "There is no connection to the service. You can go on; everything is sent when it is back.",
   picture: "Picture",
   pictures: "Pictures",
-  addSide: "Add a picture from the side: it measures better",
+  addSide: "Add a picture from the side for better measurements",
   addAnother: "Add another picture",
   remove: "Remove",
   shows: "Shows the person from",
@@ -35,7 +35,7 @@ export const panel = {
     own: { left: "The person’s own left: the picture’s right if they face you.", right: "The person’s own right: the picture’s left if they face you." },
     allDone: "All points done",
     pointsProposed: "Points proposed",
-    dragThenFit: "Drag what lies wrong, then measure.",
+    dragThenFit: "Drag those that are off, then measure.",
     plenty: "There are enough; more make the body better.",
     trunkNeeded: (count: number) => `${count} more of the shoulders and hips needed.`,
     needed: (count: number) => `${count} more needed. Guess what is covered; skip what is outside the picture.`,
@@ -55,7 +55,7 @@ export const panel = {
   ways: {
     title: "Keys and gestures",
     list: [
-      { way: "Wheel, pinch, + and −", does: "come nearer" },
+      { way: "Wheel, pinch, + and −", does: "zoom" },
       { way: "Drag the picture, or its middle button", does: "move it" },
       { way: "Drag a point, or arrow keys", does: "move a point; Shift by ten pixels" },
       { way: "H", does: "it is hidden behind something" },

@@ -59,7 +59,7 @@ export const products = {
   composition: {
     bmi: "Body mass index",
     fat: (percent: string, error: string | null) => (error === null ? `${percent} % fat` : `${percent} ± ${error} % fat`),
-    withheld: "not for this person",
+    formulas: { us_navy: "By girths (US Navy)", cun_bae: "By weight and age (CUN-BAE)" },
   },
   caricature: { strength: "Exaggeration", times: (factor: string) => `${factor} ×`, turned: "The caricature" },
 } as const;

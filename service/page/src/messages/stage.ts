@@ -23,7 +23,7 @@ export const stage = {
   asked: (point: string) => `${point}?`,
   proposing: "Looking for the person …",
   nobody: "Nobody was found in this picture.",
-  several: (count: number) => `${count} people were found. Tap the one you mean.`,
+  several: (count: number) => `${count} people were found. Choose the one you mean.`,
   severalFound: (count: number) => `${count} people were found.`,
   proposed: (count: number) => plural(count, { one: "One point is proposed.", other: `${count} points are proposed.` }),
   lookAt: (points: string) => `Look at these: ${points}.`,

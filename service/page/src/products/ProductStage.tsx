@@ -2,6 +2,7 @@
 import type { Product } from "../api/types";
 import { messages } from "../messages";
 import { Icon } from "../ui/Icon";
+import { IS_TOUCHED } from "../ui/narrow";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { KINDS } from "./kinds";
 
@@ -21,7 +22,7 @@ export function ProductStage({ product: { id, kind, links }, skin, onBack }: { p
         <div class="look-free">
           <DerivedCanvas key={id} path={links.files[body.file] ?? links.files[body.still!]!} skin={skin} label={body.label} />
         </div>
-        <p class="look-hint fine">{look.hint}</p>
+        <p class="look-hint fine">{IS_TOUCHED ? look.hint.touch : look.hint.mouse}</p>
       </div>
     </section>
   );

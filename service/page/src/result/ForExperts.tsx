@@ -1,6 +1,6 @@
 // How the fit went, for experts.
 import type { FitResult, ViewResult } from "../api/types";
-import { decimal, degrees, measured, percent, seconds } from "../messages/figures";
+import { capitalised, decimal, degrees, measured, percent, seconds } from "../messages/figures";
 import { messages } from "../messages";
 import { viewTitles } from "../messages/viewNames";
 import { plainName } from "../messages/words";
@@ -26,7 +26,7 @@ export function ForExperts({ result }: { readonly result: FitResult }) {
       <dl class="facts">
         {Object.entries(energies).map(([name, value]) => (
           <>
-            <dt>{plainName(name)}</dt>
+            <dt>{capitalised(plainName(name))}</dt>
             <dd>{decimal(value, 1)}</dd>
           </>
         ))}

@@ -12,6 +12,7 @@ import { messages } from "../messages";
 import { viewLabels } from "../messages/viewNames";
 import type { Skin } from "../products/skin";
 import { Choice } from "../ui/Choice";
+import { IS_TOUCHED } from "../ui/narrow";
 import { Slider } from "../ui/Slider";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
@@ -166,7 +167,7 @@ export function Look(props: Props) {
             {hoverWords(pointedAt, found, flips)}
           </p>
         )}
-        {!over && <p class="look-hint fine">{look.hint}</p>}
+        {!over && <p class="look-hint fine">{IS_TOUCHED ? look.hint.touch : look.hint.mouse}</p>}
       </div>
       {shown === "canonical" && files.canonical && result.measurements.length > 0 && <WhatIfBar result={result} upright={files.canonical} onBody={setOther} />}
       {!isSkin && (

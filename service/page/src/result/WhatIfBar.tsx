@@ -1,7 +1,7 @@
 // Another weight or waist tried on the upright body, and what would follow.
 import { useEffect, useState } from "preact/hooks";
 import { problemFrom } from "../api/client";
-import type { FitResult, Problem } from "../api/types";
+import type { FitResult, Measurement, Problem } from "../api/types";
 import { person } from "../draft/draft";
 import { listed } from "../messages/figures";
 import { messages } from "../messages";
@@ -45,22 +45,28 @@ export function WhatIfBar({ result, upright, onBody }: Props) {
     };
   }, [change]);
   useEffect(() => () => onBody(null), []);
-  const told = ({ name, value, unit }: FitResult["measurements"][number], by = 0) => {
-    const { value: text, unit: of } = shown({ name, value: value + by, unit } as FitResult["measurements"][number], units);
-    return `${text} ${of}`;
+  const told = (each: Measurement) => {
+    const { value, unit } = shown(each, units);
+    return `${value} ${unit}`;
   };
   return (
     <details class="what-if" onToggle={({ currentTarget }) => currentTarget.open || setChange(NOTHING)}>
       <summary>{words.title}</summary>
       <div class="look-bar">
-        {result.measurements.filter(({ name }) => CHANGED.includes(name as (typeof CHANGED)[number])).map((each) => {
-          const name = each.name as (typeof CHANGED)[number];
-          const by = change[name] ?? 0;
-          return <Slider key={name} label={figures[name]} range={RANGE} value={by} text={told(each, by)} onInput={(next) => setChange({ ...change, [name]: next })} />;
+        {CHANGED.flatMap((name) => {
+          const own = named(result.measurements, name);
+          // What was not chosen follows what was.
+          const by = change[name] ?? (found && own ? named(found.measurements, name)!.value - own.value : 0);
+          return own
+            ? [<Slider key={name} label={figures[name]} range={RANGE} value={by} text={told({ ...own, value: own.value + by })} onInput={(next) => setChange({ ...change, [name]: next })} />]
+            : [];
         })}
         {found && (
           <p class="fine" role="status">
-            {words.would(listed(found.measurements.flatMap((each) => (FOLLOWING.includes(each.name as (typeof FOLLOWING)[number]) && !(each.name in change) ? [`${figures[each.name as (typeof FOLLOWING)[number]]} ${told(each)}`] : []))))}
+            {words.would(listed(FOLLOWING.flatMap((name) => {
+              const each = named(found.measurements, name);
+              return each ? [`${figures[name]} ${told(each)}`] : [];
+            })))}
           </p>
         )}
         {problem && <ProblemNote problem={problem} />}
@@ -72,4 +78,8 @@ export function WhatIfBar({ result, upright, onBody }: Props) {
       </div>
     </details>
   );
+}
+
+function named(measurements: readonly Measurement[], name: string): Measurement | undefined {
+  return measurements.find((each) => each.name === name);
 }

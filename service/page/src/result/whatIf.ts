@@ -4,9 +4,9 @@ import type { BodyRequest, FitResult, Measurement } from "../api/types";
 import { readGlb } from "../viewer/glb";
 import type { GlbBody } from "../viewer/glb";
 
-/** What can be asked for otherwise, and what follows it. */
+/** What can be asked for otherwise, and what else follows it. */
 export const CHANGED = ["weight", "waist_girth_smallest"] as const;
-export const FOLLOWING = ["chest_girth", "waist_girth_smallest", "hip_girth", "weight"] as const;
+export const FOLLOWING = ["chest_girth", "hip_girth"] as const;
 
 /** By how much, in the measurement's unit; nothing is as it was measured. */
 export type Change = Readonly<Partial<Record<(typeof CHANGED)[number], number>>>;

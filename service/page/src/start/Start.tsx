@@ -7,6 +7,7 @@ import { messages } from "../messages";
 import { PREPARE_ADDRESS } from "../route";
 import { FileButton } from "../ui/FileButton";
 import { Icon } from "../ui/Icon";
+import { IS_TOUCHED } from "../ui/narrow";
 import { AccuracyLine } from "./AccuracyLine";
 import { HowTo } from "./HowTo";
 import { KeptLine } from "./KeptLine";
@@ -24,9 +25,6 @@ const SAMPLES: readonly Shown[] = [
   { name: "arm_across", pictures: ["arm_across.jpg"], request: "arm_across.json", width: 480, height: 640 },
   { name: "pair", pictures: ["front.jpg", "side.jpg"], request: "front_and_side.json", width: 480, height: 640 },
 ];
-
-/** Whether the device is held in the hand: it has a camera, and nothing is dragged onto its pages. */
-const IS_TOUCHED = matchMedia("(pointer: coarse)").matches;
 
 export function Start() {
   const { start } = messages;

@@ -4,7 +4,9 @@ import { useEffect } from "preact/hooks";
 import { getResult, postFit } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { apiKey } from "../api/key";
+import type { Fit } from "../api/types";
 import { messages } from "../messages";
+import { useSkin } from "../products/skin";
 import { Choice } from "../ui/Choice";
 import { FileButton } from "../ui/FileButton";
 import { announce } from "../ui/announce";
@@ -22,8 +24,8 @@ export function TryView() {
   const file = useSignal<File | null>(null);
   const request = useSignal(SAMPLE_REQUEST);
   const answer = useSignal<object | null>(null);
-  /** The way to the upright body. */
-  const body = useSignal<string | undefined>(undefined);
+  /** Whose body is shown. */
+  const fitted = useSignal<Fit | null>(null);
   const sending = useSignal<AbortController | null>(null);
   const language = useSignal<Language>("curl");
   useEffect(() => () => sending.value?.abort(), []);
@@ -32,7 +34,7 @@ export function TryView() {
   const ask = (text: string, picture = file.value) => {
     sending.value?.abort();
     sending.value = answer.value = null;
-    body.value = undefined;
+    fitted.value = null;
     request.value = text;
     file.value = picture;
   };
@@ -44,7 +46,7 @@ export function TryView() {
       const picture = file.value ?? (await (await fetch(`/page/${SAMPLE}`)).blob());
       const fit = await postFit(picture, compact(request.value), signal);
       told = fit.state === "succeeded" ? await getResult(fit.id) : fit;
-      if (!signal.aborted) body.value = fit.links.files["body_canonical.glb"];
+      if (!signal.aborted && fit.state === "succeeded") fitted.value = fit;
     } catch (error) {
       told = problemFrom(error);
     }
@@ -99,11 +101,17 @@ export function TryView() {
       </section>
       <section>
         <h2>{trying.body}</h2>
-        {body.value && <DerivedCanvas key={body.value} path={body.value} label={trying.body} />}
+        {fitted.value && <Upright key={fitted.value.id} fit={fitted.value} />}
         <a href="/docs">{trying.reference}</a>
       </section>
     </main>
   );
+}
+
+/** In its colours once they are there. */
+function Upright({ fit }: { fit: Fit }) {
+  const skin = useSkin(fit.id, true);
+  return skin.state === "coming" ? null : <DerivedCanvas path={fit.links.files["body_canonical.glb"]!} skin={skin.path} label={messages.trying.body} />;
 }
 
 function Code({ label, text, rows, onEdit }: { label: string; text: string; rows: number; onEdit?: (text: string) => void }) {

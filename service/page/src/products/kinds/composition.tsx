@@ -2,7 +2,7 @@
 import type { CompositionResult } from "../../api/types";
 import { decimal } from "../../messages/figures";
 import { messages } from "../../messages";
-import { plainName } from "../../messages/words";
+import { plainName, wordFor } from "../../messages/words";
 import type { Kind } from "./kind";
 
 const words = messages.products.composition;
@@ -17,10 +17,10 @@ function Estimates({ result: { bmi, estimates } }: { result: CompositionResult }
     <dl class="facts">
       <dt>{words.bmi}</dt>
       <dd>{decimal(bmi, 1)}</dd>
-      {estimates.map(({ name, source, percent, standard_error: error }) => (
+      {estimates.map(({ name, source, percent, standard_error: error, withheld }) => (
         <>
-          <dt title={source}>{plainName(name)}</dt>
-          <dd>{percent === null ? words.withheld : words.fat(decimal(percent, 1), error === null ? null : decimal(error, 1))}</dd>
+          <dt title={source}>{wordFor(words.formulas, name) ?? plainName(name)}</dt>
+          <dd>{percent === null ? withheld.join(" ") : words.fat(decimal(percent, 1), error === null ? null : decimal(error, 1))}</dd>
         </>
       ))}
     </dl>

@@ -1,1 +1,0 @@
-import{o as e}from"/page/chunk.XR7ZMISG.js";function s({label:r,named:l,range:a,value:t,text:n,onInput:o}){return e("label",{class:"slider",children:[e("span",{children:r}),e("input",{type:"range",min:a.least,max:a.most,step:a.step,value:t,"aria-label":l,"aria-valuetext":n,onInput:u=>o(Number(u.currentTarget.value))}),e("output",{children:n})]})}export{s as a};

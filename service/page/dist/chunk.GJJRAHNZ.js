@@ -1,0 +1,1 @@
+import{j as t}from"/page/chunk.K74SRY7O.js";var e=matchMedia("(max-width: 700px)"),a=t(e.matches);e.addEventListener("change",()=>a.value=e.matches);var s=matchMedia("(pointer: coarse)").matches;export{a,s as b};

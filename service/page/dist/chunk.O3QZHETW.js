@@ -1,1 +1,0 @@
-import{j as n,l as t}from"/page/chunk.XR7ZMISG.js";var r=n(!1);function a(){let e=i=>{i.key==="Escape"&&(r.value=!1)};t(()=>{if(r.value)return addEventListener("keydown",e),()=>removeEventListener("keydown",e)})}export{r as a,a as b};

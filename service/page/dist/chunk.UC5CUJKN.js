@@ -1,1 +1,0 @@
-import{o as e}from"/page/chunk.XR7ZMISG.js";function p({look:o="button is-small",accept:t="image/*",multiple:a=!1,named:r,onChoose:i,children:s}){return e("label",{class:o,children:[s,e("input",{class:"unseen",type:"file",accept:t,multiple:a,"aria-label":r,onChange:l=>{let n=[...l.currentTarget.files??[]];l.currentTarget.value="",n.length>0&&i(n)}})]})}export{p as a};
