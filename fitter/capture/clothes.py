@@ -42,10 +42,10 @@ def clothes(capture: Capture) -> Remark | None:
     loose = _loose(capture.clothing)
     if not loose:
         return None
+    said = [f"{_WORDS[region]} ({100.0 * share:.0f} %)" for region, share in loose.items()]
     return remark(
         Code.CLOTHES_LOOSE,
-        f"Loose clothes cover {listed([_WORDS[region] for region in loose])}, with a "
-        f"probability of {100.0 * min(loose.values()):.0f} %: the body under them is estimated.",
+        f"Loose clothes seem to cover {listed(said)}: the body under them is estimated.",
         severity=Severity.HARMS,
         where=tuple(
             f"{side}_{joint}"

@@ -140,9 +140,9 @@ def with_what_is_worn(
     clothes, off_m = objective.evidence.clothes, waist_distance(objective, body)
     if clothes is None or off_m is None:
         return tuple(findings)
-    off_cm = CENTIMETRES_PER_METRE * max(off_m, 0.0)
-    said = f"{_WORN[clothes.over_top]} stands about {off_cm:.0f} cm off the body at the waist."
-    return _told_more(findings, said)
+    off_cm = round(CENTIMETRES_PER_METRE * off_m)
+    lies = f"stands about {off_cm} cm off" if off_cm > 0 else "lies close to"
+    return _told_more(findings, f"{_WORN[clothes.over_top]} {lies} the body at the waist.")
 
 
 def with_what_clothes_cost(
@@ -161,7 +161,7 @@ def with_what_clothes_cost(
         return tuple(findings)
     remedy = "Close-fitting clothes make it surer."
     if weighed_cm is not None:
-        remedy = f"With the weight it is known to ± {_half(weighed_cm)} cm. {remedy}"
+        remedy = f"Say the weight: the waist is then known to ± {_half(weighed_cm)} cm. {remedy}"
     said = (
         f"The smallest waist is known to ± {_half(waist_cm)} cm (95 % of true values fall within)."
     )
@@ -185,8 +185,8 @@ def _half(standard_error: float) -> str:
 
 
 _WORN: Final = {
-    True: "What is worn over a top, a jacket, coat, vest or open shirt,",
-    False: "A top with nothing over it",
+    True: "A jacket, coat, vest or open shirt over the top",
+    False: "The top, with nothing seen over it,",
     None: "What covers the trunk",
 }
 _NOT_LOOSE = remark(

@@ -118,9 +118,9 @@ def test_the_result_says_in_a_line_what_loose_clothes_cost(fits):
     assert Code.CLOTHES_LOOSE not in found[Clothing.TIGHT]
     for said in (Clothing.LOOSE, Clothing.AUTO):
         told, (_, error) = found[said][Code.CLOTHES_LOOSE], stated(fits[said], SMALLEST)
-        assert re.search(r"A top with.* about \d+ cm off the body at", told.reason)
+        assert re.search(r"The top, with.* about \d+ cm off the body at", told.reason)
         assert f"The smallest waist is known to ± {1.96 * error:.0f} cm" in told.reason
-        (weighed,) = re.findall(r"With the weight it is known to ± (\d+) cm", told.remedy)
+        (weighed,) = re.findall(r"the waist is then known to ± (\d+) cm", told.remedy)
         assert 0.2 < float(weighed) / (1.96 * error) < 0.9
 
 

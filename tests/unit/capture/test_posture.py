@@ -282,9 +282,9 @@ def worn(**kinds: Covering) -> tuple[WornRegion, ...]:
 @pytest.mark.parametrize(
     ("kinds", "said"),
     [
-        ({"upper": Covering.LOOSE, "lower": Covering.CLOSE}, "cover the upper body, with"),
+        ({"upper": Covering.LOOSE, "lower": Covering.CLOSE}, "cover the upper body (80 %): "),
         ({"upper": Covering.BARE, "lower": Covering.LOOSE, "legs": Covering.LOOSE},
-         "cover the thighs and the lower legs, with a probability of 80 %"),
+         "cover the thighs (80 %) and the lower legs (80 %): "),
     ],
 )  # fmt: skip
 def test_loose_clothes_are_told_by_the_regions_that_they_cover(kinds, said):
