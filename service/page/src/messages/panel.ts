@@ -134,7 +134,7 @@ export const panel = {
   },
   clothes: {
     title: "Clothes",
-    tight: { label: "Tight", title: "The outline is the body itself" },
+    tight: { label: "Tight clothes", title: "The outline is the body itself" },
     loose: { label: "Loose", title: "The body is looked for inside the clothes; ranges are wider" },
     outer: { label: "Jacket on top", title: "A jacket, coat, vest or open shirt is worn over a top" },
   },
