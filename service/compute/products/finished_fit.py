@@ -79,8 +79,7 @@ def measured(fit: FinishedFit, needed: Sequence[str] = ()) -> JointMeasurements:
     Raises
     ------
     InvalidInputError
-        ``fit-unusable`` where all measurements or those that are ``needed`` are withheld, or the
-        fit does not know how certain its shape is.
+        ``fit-unusable`` where all or what is ``needed`` is withheld, or errors are not known.
     """
     told = _Told.model_validate_json(fit.files[RESULT])
     if not told.measurements:
@@ -90,8 +89,9 @@ def measured(fit: FinishedFit, needed: Sequence[str] = ()) -> JointMeasurements:
         )
     hardly = [each for each in told.warnings if each.code == Note.MEASUREMENTS_WITHHELD]
     withheld = {name for each in hardly for name in each.where}
-    if withheld & set(needed):
-        raise _unusable(hardly[0].reason, "Fit its picture again with the weight, or `force`.")
+    if missing := [name for name in needed if name in withheld]:
+        reason = f"That fit says too little of {', '.join(missing)}, and withholds it."
+        raise _unusable(reason, "Fit its picture again with the weight, or with `force`.")
     if fit.person.shape_covariance is None:
         reason = "The fit does not say how certain its shape is."
         raise _unusable(reason, "Fit the picture again, without `paper`.")
