@@ -61,9 +61,6 @@ def _check_length(label: str) -> str:
     return label
 
 
-ReadableText = Annotated[str, AfterValidator(_check_readable)]
-"""Any text that somebody reads again; its length is for the field to limit."""
-
 _IN_DOCUMENT: Final = Field(
     json_schema_extra={"minLength": 1, "maxLength": LONGEST, "pattern": PATTERN}
 )

@@ -160,6 +160,10 @@ class PictureSurface:
         squarely = smooth_step(cosines, GRAZING, SQUARE)
         return np.where(seen, squarely * before, 0.0) * sample(self.clear, pixels)[0]
 
+    def look(self, points: SurfacePoints) -> tuple[Colours, Beliefs]:
+        """Both."""
+        return self.colours(points), self.belief(points)
+
     def _pixels(self, points: SurfacePoints) -> Points2D:
         return self.rendering.camera.project(points.of(self.rendering.vertices))
 

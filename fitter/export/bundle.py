@@ -54,16 +54,14 @@ def result_files(
     if outlined is not None:
         files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
     for number, (view, image) in enumerate(zip(result.views, images, strict=True)):
-        of_view = _files_of(view, result.canonical_vertices, model, image)
+        of_view = _files_of(view, model, image)
         if outlined is not None:
             of_view["body_posed_se.glb"] = body_posed_glb(outlined.views[number].found, model)
         files |= {f"views/{number}/{name}": content for name, content in of_view.items()}
     return files
 
 
-def _files_of(
-    view: FittedView, canonical_vertices: Vertices, model: BodyModel, image: bytes
-) -> dict[str, bytes]:
+def _files_of(view: FittedView, model: BodyModel, image: bytes) -> dict[str, bytes]:
     found, person = view.found, view.found.person
     camera = drawing_camera(person.camera)
     files = {
@@ -72,11 +70,7 @@ def _files_of(
         "overlay.png": overlay_png(found, model=model, image=image),
         "views.png": png(
             views_picture(
-                posed_vertices=found.posed_vertices,
-                root=person.body.translation,
-                tilt=person.tilt,
-                canonical_vertices=canonical_vertices,
-                triangles=model.triangles,
+                found.posed_vertices, person.body.translation, person.tilt, model.triangles
             )
         ),
     }

@@ -109,8 +109,6 @@ class ShownBody:
         (m, 3) linear red, green and blue, None where the body has one colour or a texture.
     colour
         The one colour, or the mean of all; linear.
-    roughness
-        As glTF has it.
     texture
         If it has one.
     """
@@ -122,7 +120,6 @@ class ShownBody:
     triangles: Triangles
     colours: Float[np.ndarray, "m 3"] | None
     colour: Vector3
-    roughness: float
     texture: Texture | None
 
 
@@ -152,7 +149,6 @@ def shown_body(glb: bytes) -> ShownBody:
         triangles=triangles,
         colours=colours,
         colour=base if colours is None else colours.mean(axis=0),
-        roughness=float(material["roughnessFactor"]),
         texture=_texture(file, material, attributes, corners),
     )
 

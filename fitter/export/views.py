@@ -66,13 +66,13 @@ class BodyView:
 
 
 def preview(
-    views: Sequence[BodyView], triangles: Triangles, texture: BodyTexture | None = None
+    views: Sequence[BodyView], triangles: Triangles, colours: BodyTexture | Vertices | None = None
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """Panels from left to right, in one scale and on one ground; of clay without a texture."""
+    """Panels from left to right, in one scale and on one ground, as :func:`shown_body` shows."""
     seen = [_on_the_ground(view) for view in views]
     camera = _panel_camera(np.concatenate(seen))
     panels = [
-        _labelled(shown_body(vertices, triangles, camera, texture), view.label)
+        _labelled(shown_body(vertices, triangles, camera, colours), view.label)
         for view, vertices in zip(views, seen, strict=True)
     ]
     return np.concatenate(panels, axis=1)
@@ -86,14 +86,9 @@ def _on_the_ground(view: BodyView) -> Vertices:
 
 
 def views_picture(
-    *,
-    posed_vertices: Vertices,
-    root: Vector3,
-    tilt: CameraTilt | None,
-    canonical_vertices: Vertices,
-    triangles: Triangles,
+    posed_vertices: Vertices, root: Vector3, tilt: CameraTilt | None, triangles: Triangles
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """Four panels: posed from the camera and from the side, canonical from the front and the side.
+    """Two panels: the posed body from the camera and from the side.
 
     Parameters
     ----------
@@ -103,17 +98,12 @@ def views_picture(
         Position of the root joint in the camera frame: the side view turns about its vertical.
     tilt
         Of the camera: what is vertical. None where it is not known, and the camera taken as level.
-    canonical_vertices
-        (m, 3) body frame, metres.
     """
-    middle = middle_of(canonical_vertices)
     panels = {
         "from the camera": posed_vertices,
         "from the right of the picture": turned_about_vertical(
             under_level_camera(posed_vertices, root, tilt), root, 90.0
         ),
-        "canonical, front": before_onlooker(canonical_vertices, middle, 0.0),
-        "canonical, side": before_onlooker(canonical_vertices, middle, 90.0),
     }
     return np.concatenate(
         [
@@ -223,11 +213,20 @@ def _calm_normals(rendering: Rendering) -> Normals:
 
 
 def shown_body(
-    vertices: Vertices, triangles: Triangles, camera: Camera, texture: BodyTexture | None
+    vertices: Vertices,
+    triangles: Triangles,
+    camera: Camera,
+    texture: BodyTexture | Vertices | None,
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """A body before white paper in its texture's colours, as they are; without one, of clay."""
+    """A body before white paper in the colours of a texture, as they are; without one, of clay.
+
+    Linear colours of the vertices will do.
+    """
     if texture is None:
         return coloured_body(vertices, triangles, camera)
+    if isinstance(texture, np.ndarray):
+        (picture,) = vertex_pictures([texture], render_finely(vertices, triangles, camera))
+        return picture
     rendering = render(vertices[texture.owners], texture.triangles, finer(camera, SAMPLES))
     picture = cv2.imdecode(np.frombuffer(texture.picture, np.uint8), cv2.IMREAD_COLOR_RGB)
     assert picture is not None

@@ -69,15 +69,10 @@ class MeshTopology:
     edge_triangles
         (e, 2) the two triangles of an edge: first the one that runs it from the smaller vertex to
         the larger, then the one that runs it back.
-    neighbour_pointers, neighbours
-        The vertices joined to vertex i by an edge, N(i) in Eq. 2, ascending:
-        ``neighbours[neighbour_pointers[i] : neighbour_pointers[i + 1]]``.
     """
 
     edges: Integer[np.ndarray, "e 2"]
     edge_triangles: Integer[np.ndarray, "e 2"]
-    neighbour_pointers: Integer[np.ndarray, " m1"]
-    neighbours: Integer[np.ndarray, " two_e"]
 
 
 def mesh_topology(triangles: Triangles, *, vertex_count: int) -> MeshTopology:
@@ -104,15 +99,7 @@ def mesh_topology(triangles: Triangles, *, vertex_count: int) -> MeshTopology:
     edge_triangles = np.stack(
         [owner[forward][forward_order], owner[~forward][backward_order]], axis=1
     )
-    both_ways = np.concatenate([edges, edges[:, ::-1]])
-    both_ways = both_ways[np.lexsort((both_ways[:, 1], both_ways[:, 0]))]
-    counts = np.bincount(both_ways[:, 0], minlength=vertex_count)
-    return MeshTopology(
-        edges=edges,
-        edge_triangles=edge_triangles,
-        neighbour_pointers=np.concatenate([[0], np.cumsum(counts)]).astype(np.int32),
-        neighbours=np.ascontiguousarray(both_ways[:, 1]),
-    )
+    return MeshTopology(edges=edges, edge_triangles=edge_triangles)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -2,11 +2,14 @@
 
 import importlib
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any, Final
 
 from api_schemas.fit import FitRequest
 from api_schemas.products import ProductRequest
 from api_schemas.products.base import ProductResult
+from fitter.applications.texture import picture_colours
+from fitter.body.scape import ScapeEvaluator
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import result_files, tapes_json
 from fitter.export.display import png
@@ -14,6 +17,7 @@ from fitter.export.views import BodyView, preview
 from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
 from fitter.result import FitResult
+from fitter.vocabulary.outcomes import Verdict
 from service.compute import translate
 from service.compute.fit_results import fit_result
 from service.compute.products.finished_fit import FinishedFit, Made, finished_fit
@@ -58,14 +62,19 @@ def fit_task(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
         raise UnusableInputError(translate.detector_problem(error, field=field)) from error
     files[PERSON] = found.person.to_bytes()
     files[TAPES] = tapes_json(found, prepared.measuring)
-    files[BODY] = _from_all_round(found)
+    files[BODY] = _from_all_round(found, prepared.operators.evaluator)
     return with_result_document(fit_result(found, part_names=model.part_names), files)
 
 
-def _from_all_round(found: FitResult) -> bytes:
-    body = found.canonical_vertices
+def _from_all_round(found: FitResult, evaluator: ScapeEvaluator) -> bytes:
+    """The body in the colours of its picture; of clay where it does not match that."""
+    body, colours = found.canonical_vertices, None
     views = [BodyView(label=label, vertices=body, degrees=degrees) for label, degrees in _SEEN_FROM]
-    return png(preview(views, found.triangles))
+    if found.found.verdict is Verdict.PLAUSIBLE:
+        seen = found.views[0].pictures
+        with suppress(InvalidInputError):
+            colours = picture_colours(found.person, evaluator, seen.image, seen.segmentation)
+    return png(preview(views, found.triangles, colours))
 
 
 def product_task(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:

@@ -1,7 +1,6 @@
 """A page to print: one HTML file with its pictures in it, and no scripts."""
 
 import base64
-import dataclasses
 from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Final
@@ -10,13 +9,11 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from api_schemas.products.base import BodyColours
 from api_schemas.products.documents import PrintOptions, PrintResult
 from api_schemas.results import FitResult, Measurement
-from fitter.export.views import MARGIN_SHARE, BodyView, preview
+from fitter.export.views import MARGIN_SHARE
 from fitter.vocabulary.measurements import CHIEF
 from service.compute.products.finished_fit import FinishedFit, Made, Report
-from service.compute.products.pictured_body import texture_for
 from service.jobs.inputs import BODY, OVERLAY, RESULT, of_view
 
 PICTURE_HEIGHT_PX: Final = 900
@@ -68,7 +65,8 @@ def make(fit: FinishedFit, options: PrintOptions, report: Report) -> Made[PrintR
         if name in fit.files
     ]
     if BODY in fit.files:
-        figures.append(_figure(_unlabelled(_body(fit)), "The body: front, side, back"))
+        body = _unlabelled(_decoded(fit.files[BODY]))
+        figures.append(_figure(body, "The body: front, side, back"))
     return Made(result=PrintResult(), files={"print.html": _page(result, figures).encode()})
 
 
@@ -76,17 +74,6 @@ def _captions(result: FitResult) -> Iterator[tuple[str, str]]:
     for number, view in enumerate(result.views):
         seen = "" if view.view is None else f", {view.view}"
         yield of_view(number, OVERLAY), f"Picture {number + 1}{seen}"
-
-
-def _body(fit: FinishedFit) -> _Picture:
-    """The body in colour; of clay where the picture shows nothing of it."""
-    texture, model = texture_for(BodyColours.PICTURE, fit), fit.operators.model
-    if texture is None:
-        return _decoded(fit.files[BODY])
-    body = dataclasses.replace(fit.person.body, pose=model.canonical_pose)
-    vertices = fit.operators.evaluator.body_frame_vertices(body)
-    views = [BodyView(label="", vertices=vertices, degrees=each) for each in (0.0, 90.0, 180.0)]
-    return preview(views, model.triangles, texture)[..., ::-1]
 
 
 def _decoded(picture: bytes) -> _Picture:

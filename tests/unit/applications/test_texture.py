@@ -12,6 +12,7 @@ from fitter.applications.texture import (
     Texture,
     albedo_texture,
     linear_picture,
+    picture_colours,
     picture_texture,
 )
 from fitter.body.scape import CAMERA_AXES
@@ -19,7 +20,7 @@ from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.export.gltf import textured_glb
 from fitter.export.gltf_mesh import BodyTexture
-from fitter.observation.pixels import linear_from_display
+from fitter.observation.pixels import display_from_linear, linear_from_display
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
@@ -189,16 +190,18 @@ def test_a_large_picture_is_read_at_two_megapixels():
     np.testing.assert_allclose(picture, linear_from_display(np.array(188 / 255)), atol=1e-6)
 
 
-def test_a_fit_without_light_has_no_albedo_texture(sitter):
-    dark = replace(sitter.person, light=None, reflectance=None, albedo_rgb=None)
-    with pytest.raises(InvalidInputError, match="no light") as caught:
-        albedo_texture(dark, sitter.evaluator, sitter.even)
-    assert caught.value.code == "no-light"
-
-
-def test_another_size_is_refused_with_those_there_are(sitter):
-    with pytest.raises(InvalidInputError, match="512, 1024, 2048"):
-        picture_texture(sitter.person, sitter.evaluator, sitter.even, size=700)
+def test_vertices_alone_have_the_colours_that_were_painted(sitter):
+    vertices, triangles = (
+        sitter.evaluator.vertices(sitter.person.body),
+        sitter.evaluator.model.triangles,
+    )
+    seen = render(vertices, triangles, CAMERA)
+    display = display_from_linear(sitter.even)
+    colours = picture_colours(sitter.person, sitter.evaluator, display, seen.silhouette)
+    away = np.abs(colours - sitter.paint).max(axis=1)
+    # A fifth is seen squarely; the rest is like what was painted on its ring.
+    assert np.quantile(away, 0.2) < 0.007
+    assert away.max() < 0.07
 
 
 def test_a_body_out_of_the_picture_has_no_texture(sitter):

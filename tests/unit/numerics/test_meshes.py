@@ -83,17 +83,6 @@ def test_both_triangles_of_an_edge_hold_its_vertices_in_opposite_order():
             assert corners[(corners.index(start) + 1) % 3] == end
 
 
-def test_neighbours_are_the_other_ends_of_a_vertexs_edges():
-    mesh = trimesh.creation.box()
-    topology = mesh_topology(np.array(mesh.faces), vertex_count=8)
-    for vertex in range(8):
-        first, end = topology.neighbour_pointers[vertex : vertex + 2]
-        expected = {int(other) for edge in topology.edges if vertex in edge for other in edge} - {
-            vertex
-        }
-        assert list(topology.neighbours[first:end]) == sorted(expected)
-
-
 def test_an_open_mesh_is_refused():
     mesh = trimesh.creation.box()
     with pytest.raises(ValueError, match="closed"):

@@ -12,9 +12,8 @@ from PIL import Image
 
 from api_schemas.products import AnyProductOptions, AnyProductResult, ProductRequest, product_id
 from api_schemas.products.base import BodyColours, ProductKind
-from api_schemas.products.bodies import TEXTURE_SIZES, NamedMotion, NamedPose
+from api_schemas.products.bodies import NamedMotion, NamedPose
 from fitter.applications.poses import NAMED_POSES, REST
-from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from service.compute.pipeline import maker_of
 from service.compute.products.finished_fit import Made
@@ -173,10 +172,6 @@ def test_a_factor_that_turns_the_surface_inside_out_is_refused_with_the_largest(
         made(kind="caricature", factor=99.0)
     assert caught.value.error.field == "factor"
     assert caught.value.error.largest < 99.0
-
-
-def test_the_sizes_of_textures_on_the_wire_are_the_fitter_s():
-    assert TEXTURE_SIZES == SIZES
 
 
 OPTIONS: dict[str, Any] = {

@@ -7,7 +7,7 @@ export const files = {
     "body_posed.glb": "Posed body with camera, light and skin",
     "body_canonical_se.glb": "Upright body, before shading refined it",
     "body_posed_se.glb": "Posed body, before shading refined it",
-    "views.png": "The body from the camera, from the side, and upright",
+    "views.png": "The body from the camera and from the side",
     "measurements.csv": "The measurements, for a spreadsheet",
     "result.json": "Everything found, as numbers",
     "tapes.json": "Where each measurement is taken",
