@@ -60,19 +60,19 @@ def clothing_guess(capture: Capture) -> ClothingGuess | None:
     """Clothes as they look; None where no outline is cut out, or nobody is found."""
     if capture.mask is None or capture.stature_px is None:
         return None
-    if capture.over_top is not None and capture.over_top > _PROBABLY:
+    bare = {each.region for each in capture.clothing or () if each.kind is Covering.BARE}
+    over_top = capture.over_top or 0.0
+    if BodyRegion.UPPER not in bare and over_top > _PROBABLY:
         return ClothingGuess(
             kind=Clothing.OUTER,
             reason="The network of what is worn sees a jacket, coat, vest or open shirt over a top,"
-            f" with a probability of {100.0 * capture.over_top:.0f} %.",
+            f" with a probability of {100.0 * over_top:.0f} %.",
         )
-    doubt = clothes(capture)
-    if doubt is not None:
+    if (doubt := clothes(capture)) is not None:
         return ClothingGuess(kind=Clothing.LOOSE, reason=doubt.reason)
     return ClothingGuess(
         kind=Clothing.TIGHT,
-        reason="Trunk and legs show the colour of the person's skin, or are as narrow as in close "
-        "clothes.",
+        reason="Trunk and legs show the skin's colour, or are as narrow as in close clothes.",
     )
 
 

@@ -312,6 +312,7 @@ def test_without_an_outline_clothes_are_not_checked():
         (worn(upper=Covering.LOOSE), 0.2, Clothing.LOOSE, "the upper body"),
         (None, None, Clothing.LOOSE, "Neither face nor hands"),
         (worn(upper=Covering.LOOSE), 0.8, Clothing.OUTER, "80 %"),
+        (worn(upper=Covering.BARE), 0.8, Clothing.TIGHT, "skin"),
     ],
 )
 def test_clothes_are_guessed_in_a_word_of_requests_with_its_reason(seen, over_top, kind, because):
