@@ -1,220 +1,242 @@
 """Colours of skin and cloth that no picture shows, from those that it shows.
 
-Clothes and limbs go round: what is seen of a ring round the trunk or a limb tells the rest of
-that ring. The colours seen of each region of the body are therefore read as a profile along it, the
-trunk and legs from the crown down, the arms from the shoulder out, and cut into bands of plain
-colour. That is what hidden points show, so that a hem or a belt runs on behind, and a check, a
-fold or a print does not. Where hidden meets seen its light follows what is seen
-(:func:`fitter.applications.surface_field.extend_light`). Regions blend where they meet.
+What is seen falls into pieces of plain colour (:mod:`fitter.applications.pieces`). Clothes and
+limbs go round: over what is hidden the share of each piece is carried on smoothly, much farther
+round trunk and limbs than along them, and the piece with the largest share is worn there, so that
+hems, sleeves and belts meet behind. Pieces of one colour count as one. About the pelvis hems rise
+from between the legs to the hips: there a hidden point is also like the one seen straight before
+or behind it. Where hidden meets seen its light follows what is seen
+(:func:`fitter.applications.picture_look.extend_light`).
 
-The head is no ring: its back is hair. The scalp has one colour of its own, wherever any of it is
-seen.
+The head's back is hair, or a hat: what the picture shows about the crown. An unseen face is skin.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
-import cv2
 import numpy as np
-from jaxtyping import Float, Integer
+import qdldl
+from jaxtyping import Bool, Float, Integer
+from scipy import sparse
+from scipy.spatial import KDTree
 
+from fitter.applications.picture_look import DARKEST
 from fitter.applications.picture_surface import Colours, SurfacePoints, smooth_step
-from fitter.applications.rings import Region, RingCoordinates
-from fitter.observation.pixels import display_from_linear
+from fitter.applications.pieces import cloth_colours, pieces_of, vertex_areas
+from fitter.applications.rings import Region, RingCoordinates, landmark
+from fitter.arrays import Vector3
+from fitter.body.model import BodyModel
+from fitter.numerics.rotations import unit_vectors
 
-BIN_M = 0.006
-"""Width of a ring: a hem is as sharp behind as this."""
+ROUND = 200.0
+"""Conductivity round trunk and limbs, as a multiple of that along them: a band of 4 cm that is seen
+at both sides reaches round a back of 35."""
 
-LEAST_WEIGHT = 25.0
-"""Texels believed wholly, of an atlas of 1024, from which a ring is read; one with fewer is
-interpolated between those beside it."""
-
-FORGOTTEN_M = 0.05
-"""Along the surface, over which what is seen at the border loses its influence by e."""
-
-MIDDLE = (0.35, 0.65)
-"""Quantiles of a ring's brightness between which its colours are averaged: nipples, logos and
-shade lie outside."""
-
-SHADE_M = 0.1
-"""Along a band of plain colour, over which its rings are averaged: light from above stays, folds
-and stripes do not."""
+LEAST_PIECE_M2 = 1e-3
+"""Smaller pieces are no clothes."""
 
 SAME_CLOTH = 10.0
-"""Difference of two bands, in CIELAB with less brightness, up to which they are one cloth or skin
-in other light."""
+"""Difference in CIELAB with less brightness up to which pieces are one cloth, or skin."""
 
-HEM_COST = 9.0
-"""Cost of one more band, in squares of CIELAB metres: a band of 3 cm stays if it differs by 25 from
-what is beside it, and one of 20 cm by 10."""
+MOST_LIGHT, MOST_HUE, LEAST_TINT = 1.0, 0.25, 0.4
+"""Or logarithms of the most that light differs by, of what channels differ by in that, and of what
+they differ by in a colour: skin in the shade loses chroma, but greys are different cloths."""
 
-BRIGHTNESS_SHARE = 0.4
-"""Weight of brightness against hue and saturation when bands are told apart."""
+BELOW_NAVEL_M, BELOW_CROTCH_M = (0.03, 0.08), (0.1, 0.16)
+"""Over which a point begins to be like the one before it, and ends: a bare back has no navel, and
+cloth goes round legs."""
 
-BORDER = (0.3, 0.7)
-"""Shares of a region between which its colours turn into its neighbour's, over about 1.5 cm."""
+BESIDE = (0.3, 0.6)
+"""Shares of the trunk's half width over which that begins above: necklines are another behind."""
 
-SHOULDER_M = (0.0, 0.08)
-"""Along the arm, where the trunk's colours turn into its own."""
+THROUGH_M, ASIDE_M, NEAREST = 0.04, 0.03, 4
+"""Distance round the body over which that is forgotten; most between two such points as seen from
+before; how many are read."""
+
+TWO_SHARE = 0.9
+"""Share of skin and one cloth where that holds: an open jacket shows another."""
+
+_LEAST_SHARE = 1e-9
+# Of every piece everywhere: a part that hangs together with none has the mean of all.
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ColourProfiles:
-    """Colours along each region, from what is seen of it.
+class Worn:
+    """What is worn all over a body.
 
     Attributes
     ----------
-    positions_m, colours
-        (b,) centres of the rings that were read and (b, 3) their linear colours, by region.
+    shares
+        (m, g) of each cloth, hair and skin at each vertex.
+    colours
+        (m, g, 3) linear, of each there.
     """
 
-    positions_m: Mapping[Region, Float[np.ndarray, " b"]]
-    colours: Mapping[Region, Float[np.ndarray, "b 3"]]
+    shares: Float[np.ndarray, "m g"]
+    colours: Float[np.ndarray, "m g 3"]
 
     @classmethod
     def of(
         cls,
-        region: Integer[np.ndarray, " k"],
-        along_m: Float[np.ndarray, " k"],
-        colours: Colours,
-        weights: Float[np.ndarray, " k"],
-        *,
-        least_weight: float,
-    ) -> "ColourProfiles":
-        """Read the profiles of points with these weights.
+        model: BodyModel,
+        seen: Bool[np.ndarray, " m"],
+        colours: Float[np.ndarray, "m 3"],
+        crown: Vector3 | None,
+    ) -> "Worn":
+        """Carry on what is seen.
 
         Parameters
         ----------
-        region, along_m
-            Of the points, as of :meth:`RingCoordinates.of_points`.
-        least_weight
-            Of a ring, that it counts.
+        seen, colours
+            Which vertices are seen, at least one, and their linear colours.
+        crown
+            Colour about the crown; None where the picture does not show it.
         """
-        positions: dict[Region, Float[np.ndarray, " b"]] = {}
-        found: dict[Region, Float[np.ndarray, "b 3"]] = {}
-        for each in Region:
-            own = (region == each) & (weights > 0.0)
-            bins = np.floor(along_m[own] / BIN_M).astype(np.intp)
-            rings, read = _rings(bins, colours[own], weights[own], least_weight)
-            positions[each] = (rings + 0.5) * BIN_M
-            found[each] = _plain(positions[each], read)
-        return cls(positions_m=positions, colours=found)
+        areas = vertex_areas(model)
+        piece = pieces_of(model, seen, colours)
+        sizes = np.bincount(piece[seen], areas[seen])
+        large = sizes >= min(LEAST_PIECE_M2, sizes.max())
+        piece = np.where(np.append(large, False)[piece], piece, -1)
+        # Numbers without gaps, and -1 for none.
+        piece = np.unique(np.append(piece, -1), return_inverse=True)[1][:-1] - 1
+        plain = [np.median(colours[piece == each], axis=0) for each in range(piece.max() + 1)]
+        rings = RingCoordinates.of(model)
+        skin = _skin(rings, piece, areas)
+        if skin is not None:
+            piece[(piece < 0) & (rings.features > 0.5)] = skin
+        if crown is not None:
+            piece[(piece < 0) & (rings.shares[Region.SCALP] > 0.5)] = len(plain)
+            plain.append(crown)
+        of_piece = np.bincount(piece[piece >= 0], areas[piece >= 0], len(plain))
+        cloth = _alike(np.stack(plain), of_piece)
+        is_skin = np.zeros(len(plain), dtype=bool) if skin is None else cloth == cloth[skin]
+        shares = _carried_on(model, piece, cloth, is_skin) + _LEAST_SHARE
+        own = np.arange(cloth.max() + 1)[:, None] == cloth
+        totals = shares @ own.T
+        sums = np.einsum("mk,gk,kc->mgc", shares, own, np.stack(plain), optimize=True)
+        return cls(shares=totals, colours=sums / totals[..., None])
 
-    @property
-    def empty(self) -> bool:
-        """Whether no ring was read."""
-        return not any(len(read) for read in self.colours.values())
-
-    def at(self, region: Region, along_m: Float[np.ndarray, " k"]) -> Colours:
-        """Colours of points of a region, unless all are empty."""
-        positions, read = self.positions_m[region], self.colours[region]
-        if not len(positions):
-            stand_in = next(each for each in _INSTEAD[region] if len(self.colours[each]))
-            return np.tile(np.median(self.colours[stand_in], axis=0), (len(along_m), 1))
-        return np.stack([np.interp(along_m, positions, read[:, k]) for k in range(3)], axis=1)
-
-
-_INSTEAD: Mapping[Region, tuple[Region, ...]] = {
-    Region.TRUNK: (Region.ARMS, Region.HANDS, Region.FACE, Region.SCALP),
-    Region.ARMS: (Region.HANDS, Region.FACE, Region.TRUNK, Region.SCALP),
-    Region.HANDS: (Region.FACE, Region.ARMS, Region.TRUNK, Region.SCALP),
-    Region.FACE: (Region.HANDS, Region.ARMS, Region.SCALP, Region.TRUNK),
-    Region.SCALP: (Region.FACE, Region.HANDS, Region.ARMS, Region.TRUNK),
-}
-"""Stand-ins for a region of which nothing is seen, best first: for skin, other skin."""
-
-
-def on_rings(
-    rings: RingCoordinates,
-    profiles: ColourProfiles,
-    points: SurfacePoints,
-) -> Colours:
-    """Colours of points; at the shoulder the trunk's merge into the arm's."""
-    colours, total = np.zeros((len(points.corners), 3)), np.zeros((len(points.corners), 1))
-    for each in Region:
-        own = points.near(rings.shares[each] > BORDER[0])
-        of_region = points.some(own)
-        share = smooth_step(of_region.of(rings.shares[each]), *BORDER)[:, None]
-        found = profiles.at(each, of_region.of(rings.along_m[each]))
-        if each is Region.ARMS:
-            arm = smooth_step(of_region.of(rings.along_m[each]), *SHOULDER_M)[:, None]
-            trunk = profiles.at(Region.TRUNK, of_region.of(rings.along_m[Region.TRUNK]))
-            found = arm * found + (1.0 - arm) * trunk
-        colours[own] += share * found
-        total[own] += share
-    return colours / total
-
-
-def _rings(
-    bins: Integer[np.ndarray, " k"],
-    colours: Colours,
-    weights: Float[np.ndarray, " k"],
-    least_weight: float,
-) -> tuple[Integer[np.ndarray, " b"], Float[np.ndarray, "b 3"]]:
-    """Bins that have enough weight, and the colours in the middle of each one's brightness."""
-    if not len(bins):
-        return bins, colours
-    order = np.lexsort((colours.sum(axis=1), bins))
-    bins, colours, weights = bins[order], colours[order], weights[order]
-    rings, starts = np.unique(bins, return_index=True)
-    totals = np.add.reduceat(weights, starts)
-    before = np.cumsum(totals) - totals
-    counts = np.diff(np.append(starts, len(bins)))
-    darker = np.cumsum(weights) - 0.5 * weights - np.repeat(before, counts)
-    quantile = darker / np.repeat(totals, counts)
-    # In a ring of few points none may lie in the middle: then all count.
-    middle = np.where((quantile >= MIDDLE[0]) & (quantile <= MIDDLE[1]), weights, 1e-6 * weights)
-    sums = np.add.reduceat(middle[:, None] * colours, starts, axis=0)
-    means = sums / np.add.reduceat(middle, starts)[:, None]
-    enough = totals >= least_weight
-    return rings[enough], means[enough]
-
-
-def _plain(
-    positions_m: Float[np.ndarray, " b"], colours: Float[np.ndarray, "b 3"]
-) -> Float[np.ndarray, "b 3"]:
-    """A profile cut into bands of plain colour, smooth along themselves and into those like them.
-
-    Folds, muscles, patterns and logos go, hems and broad stripes stay.
-    """
-    if not len(positions_m):
+    def at(self, points: SurfacePoints) -> Colours:
+        """Linear colours of points."""
+        worn = self.shares.argmax(axis=1)
+        colours = points.of(self.colours[np.arange(len(worn)), worn])
+        of_corners = worn[points.corners]
+        mixed = np.flatnonzero((of_corners != of_corners[:, :1]).any(axis=1))
+        worn = points.some(mixed).of(self.shares).argmax(axis=1)
+        for each in np.unique(worn):
+            own = mixed[worn == each]
+            colours[own] = points.some(own).of(np.ascontiguousarray(self.colours[:, each]))
         return colours
-    worn = cloth_colours(colours)
-    band = _bands(worn)
-    means = np.stack([worn[band == each].mean(axis=0) for each in np.unique(band)])
-    worn = means[np.unique(band, return_inverse=True)[1]]
-    apart = (positions_m[:, None] - positions_m) / SHADE_M
-    unlike = np.linalg.norm(worn[:, None] - worn, axis=2) / SAME_CLOTH
-    weights = np.exp(-0.5 * (apart**2 + unlike**2))
-    return weights @ colours / weights.sum(axis=1, keepdims=True)
 
 
-def cloth_colours(colours: Float[np.ndarray, "b 3"]) -> Float[np.ndarray, "b 3"]:
-    """CIELAB with less of its brightness, in which folds and shade differ most."""
-    shown = display_from_linear(np.clip(colours, 0.0, 1.0)).astype(np.float32)
-    lab = cv2.cvtColor(shown[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
-    return lab * [BRIGHTNESS_SHARE, 1.0, 1.0]
+def _skin(
+    rings: RingCoordinates, piece: Integer[np.ndarray, " m"], areas: Float[np.ndarray, " m"]
+) -> int | None:
+    """The piece that most of the face shows, or else of the hands; None where neither is seen."""
+    for region in (Region.FACE, Region.HANDS):
+        own = (piece >= 0) & (rings.shares[region] > 0.5)
+        if own.any():
+            return int(np.bincount(piece[own], areas[own]).argmax())
+    return None
 
 
-def _bands(values: Float[np.ndarray, "b 3"]) -> Integer[np.ndarray, " b"]:
-    """Which band of constant value each ring lies in: least squares plus :data:`HEM_COST` a cut.
+def _alike(
+    plain: Float[np.ndarray, "k 3"], areas: Float[np.ndarray, " k"]
+) -> Integer[np.ndarray, " k"]:
+    """The cloth that each piece is of, by number; the largest pieces tell them apart."""
+    worn, light = cloth_colours(plain), np.log(np.maximum(plain, DARKEST))
+    cloth, first = np.zeros(len(plain), dtype=np.intp), list[int]()
+    for each in np.argsort(-areas).tolist():
+        apart = np.linalg.norm(worn[first] - worn[each], axis=1)
+        ratios = light[first] - light[each]
+        same_hue = (np.ptp(ratios, axis=1) < MOST_HUE) & (np.ptp(light[each]) > LEAST_TINT)
+        alike = (apart < SAME_CLOTH) | (same_hue & (np.abs(ratios).max(axis=1) < MOST_LIGHT))
+        cloth[each] = np.where(alike, apart, np.inf).argmin() if alike.any() else len(first)
+        if not alike.any():
+            first.append(each)
+    return cloth
 
-    Dynamic programming over the last cut before each ring (the Potts model in one dimension).
+
+def _carried_on(
+    model: BodyModel,
+    piece: Integer[np.ndarray, " m"],
+    cloth: Integer[np.ndarray, " k"],
+    is_skin: Bool[np.ndarray, " k"],
+) -> Float[np.ndarray, "m k"]:
+    """Shares of pieces at all vertices: one where they are, and harmonic in between."""
+    shares = np.zeros((len(piece), len(cloth)))
+    given, hidden = np.flatnonzero(piece >= 0), np.flatnonzero(piece < 0)
+    shares[given, piece[given]] = 1.0
+    if not len(hidden):
+        return shares
+    stiffness = _stiffness(model)[hidden]
+    likeness, opposite = _straight_through(
+        model, given, hidden, cloth[piece[given]], is_skin[piece[given]]
+    )
+    pull = likeness[:, None] * (opposite @ shares) - stiffness @ shares
+    matrix = stiffness[:, hidden] + sparse.diags_array(likeness + _LEAST_SHARE)
+    solver = qdldl.Solver(sparse.csc_matrix(sparse.triu(matrix)), upper=True)
+    for each in range(len(cloth)):
+        shares[hidden, each] = solver.solve(np.ascontiguousarray(pull[:, each]))
+    return np.clip(shares, 0.0, 1.0)
+
+
+@lru_cache(maxsize=2)
+def _stiffness(model: BodyModel) -> sparse.csr_array:
+    """(m, m) of linear elements on the mean body that conduct :data:`ROUND` times as well round.
+
+    ∫ ∇u · D ∇v with D = ROUND (I - w w') + w w', w the unit gradient of the position along.
     """
-    count = len(values)
-    sums = np.concatenate([np.zeros((1, 3)), np.cumsum(values, axis=0)])
-    squares = np.concatenate([[0.0], np.cumsum((values**2).sum(axis=1))])
-    best, cut = np.zeros(count + 1), np.zeros(count + 1, dtype=np.intp)
-    for end in range(1, count + 1):
-        starts = np.arange(end)
-        spread = squares[end] - squares[:end]
-        spread -= ((sums[end] - sums[:end]) ** 2).sum(axis=1) / (end - starts)
-        costs = best[:end] + BIN_M * spread + HEM_COST
-        cut[end] = np.argmin(costs)
-        best[end] = costs[cut[end]]
-    band = np.zeros(count, dtype=np.intp)
-    end = count
-    while end > 0:
-        band[cut[end] : end] = cut[end]
-        end = int(cut[end])
-    return band
+    rings, triangles = RingCoordinates.of(model), model.triangles
+    corners = model.mean_vertices[triangles]
+    opposite = np.roll(corners, 1, axis=1) - np.roll(corners, -1, axis=1)
+    normals = np.cross(opposite[:, 0], opposite[:, 1])
+    doubled = np.linalg.norm(normals, axis=1)
+    gradients = np.cross((normals / doubled[:, None])[:, None], opposite) / doubled[:, None, None]
+    along = np.einsum("fk,fkd->fd", rings.along_m[rings.region[:, None], triangles], gradients)
+    steep = np.linalg.norm(along, axis=1)
+    # On top of shoulders and feet, in hands and scalp nothing leads along.
+    more = (ROUND - 1.0) * np.minimum(steep, 1.0) ** 2
+    along = np.einsum("fkd,fd->fk", gradients, unit_vectors(along))
+    products = (1.0 + more)[:, None, None] * np.einsum("fkd,fld->fkl", gradients, gradients)
+    products -= more[:, None, None] * along[:, :, None] * along[:, None, :]
+    products *= 0.5 * doubled[:, None, None]
+    rows, columns = np.repeat(triangles, 3, axis=1), np.tile(triangles, (1, 3))
+    shape = (len(model.mean_vertices),) * 2
+    return sparse.coo_array((products.ravel(), (rows.ravel(), columns.ravel())), shape).tocsr()
+
+
+def _straight_through(
+    model: BodyModel,
+    given: Integer[np.ndarray, " s"],
+    hidden: Integer[np.ndarray, " h"],
+    cloth: Integer[np.ndarray, " s"],
+    is_skin: Bool[np.ndarray, " s"],
+) -> tuple[Float[np.ndarray, " h"], sparse.csr_array]:
+    """How strongly hidden vertices are like those straight before or behind, and (h, m) which."""
+    areas, likeness = vertex_areas(model), np.zeros(len(hidden))
+    for zone in _zones(model):
+        seen = (zone * areas)[given]
+        worn = np.bincount(cloth, seen * ~is_skin).max() + seen[is_skin].sum()
+        if is_skin.any() and worn >= TWO_SHARE * seen.sum():
+            likeness += zone[hidden]
+    from_front = model.mean_vertices[:, :2]
+    apart, nearest = KDTree(from_front[given]).query(from_front[hidden], NEAREST)
+    weights = 1.0 / np.maximum(apart, 1e-3)
+    weights /= weights.sum(axis=1, keepdims=True)
+    likeness *= ROUND / THROUGH_M**2 * areas[hidden] * (apart[:, 0] < ASIDE_M)
+    # Those that are missing are infinitely far away.
+    nearest = given[np.minimum(nearest, len(given) - 1)]
+    starts = np.arange(0, nearest.size + 1, NEAREST)
+    which = sparse.csr_array((weights.ravel(), nearest.ravel(), starts), (len(hidden), len(areas)))
+    return likeness, which
+
+
+@lru_cache(maxsize=2)
+def _zones(model: BodyModel) -> Float[np.ndarray, "2 m"]:
+    """Weights of the pelvis down to the tops of the legs, and of the sides of what is above it."""
+    rings, height = RingCoordinates.of(model), model.mean_vertices[:, 1]
+    above = 1.0 - smooth_step(landmark(model, "navel")[1] - height, *BELOW_NAVEL_M)
+    legs = smooth_step(landmark(model, "crotch")[1] - height, *BELOW_CROTCH_M)
+    sides = above * smooth_step(rings.beside, *BESIDE)
+    return np.stack([1.0 - above - legs, sides]) * rings.shares[Region.TRUNK]

@@ -92,11 +92,14 @@ class PictureSurface:
         (h, w, 3) the picture in linear light.
     clear
         (h, w) 1 where a pixel shows the body's own surface, off every contour.
+    crown
+        Linear colour about the crown, :func:`crown_colour`; None where that is not in the picture.
     """
 
     rendering: Rendering
     linear_rgb: Image
     clear: GreyImage
+    crown: Vector3 | None
 
     @classmethod
     def of(
@@ -132,6 +135,7 @@ class PictureSurface:
             rendering=rendering,
             linear_rgb=linear_rgb,
             clear=_off_contours(rendering, shown) * _off(hair, _width_px(rendering, CONTOUR_M)),
+            crown=crown_colour(rendering, linear_rgb, person, scalp=scalp),
         )
 
     @cached_property
@@ -208,6 +212,32 @@ def _width_px(rendering: Rendering, radius_m: float) -> int:
     depth = rendering.depth[rendering.silhouette]
     metre_px = rendering.camera.focal_length_px / float(np.median(depth)) if len(depth) else 0.0
     return 2 * max(round(radius_m * metre_px), LEAST_PX) + 1
+
+
+HAIR_M = 0.03
+"""Height of hair and hats above a body's scalp, and width of what is read on it beside them."""
+
+
+def crown_colour(
+    rendering: Rendering, linear_rgb: Image, person: Mask, *, scalp: Bool[np.ndarray, " f"]
+) -> Vector3 | None:
+    """The linear colour of most of what is seen about the scalp's outline, or else of the scalp.
+
+    Foreheads reach up a scalp that is seen from the front; about its outline there is hair, or a
+    hat, or none. The outline of the person shows what is behind, too.
+    """
+    on_scalp = rendering.silhouette & scalp[rendering.face_ids]
+    within = cv2.erode(person.astype(np.uint8), _window(2 * LEAST_PX + 1)) > 0
+    near = cv2.dilate(on_scalp.astype(np.uint8), _window(_width_px(rendering, HAIR_M))) > 0
+    inner = cv2.erode(
+        rendering.silhouette.astype(np.uint8), _window(_width_px(rendering, CONTOUR_M))
+    )
+    about = near & within & (on_scalp | ~rendering.silhouette) & (inner == 0)
+    for seen in (about, on_scalp & within):
+        if np.count_nonzero(seen) >= LEAST_SEEN:
+            colours, label = linear_rgb[seen], nearest_of_two(_lab(linear_rgb)[seen])
+            return np.median(colours[label == np.bincount(label).argmax()], axis=0)
+    return None
 
 
 LEAST_SEEN = 40

@@ -12,7 +12,6 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.applications.picture_surface import SurfacePoints
 from fitter.applications.surface_field import smooth_values
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel, regress
@@ -97,14 +96,6 @@ class RingCoordinates:
             beside=_beside(model.mean_vertices, shares[Region.TRUNK] > 0.5),
             features=smooth[-1],
         )
-
-    def of_points(
-        self, points: SurfacePoints
-    ) -> tuple[Integer[np.ndarray, " k"], Float[np.ndarray, " k"]]:
-        """Region of points, and their position along it, metres."""
-        region = points.of(self.shares.T).argmax(axis=1)
-        of_corners = self.along_m[region[:, None], points.corners]
-        return region, np.einsum("kc,kc->k", points.weights, of_corners)
 
 
 def _of_vertices(model: BodyModel, triangles: Bool[np.ndarray, " f"]) -> Float[np.ndarray, " m"]:

@@ -1,7 +1,7 @@
 """Texture mapping (section 6): the picture, or the albedo found in it, laid on the body.
 
 What the picture shows is taken from it. What it hides is taken from the other side of the body
-where that is seen, and else from what is seen of the same ring round the body
+where that is seen, and else what is worn beside it is carried on
 (:mod:`fitter.applications.hidden_colours`); a coverage picture says which is which, so that nothing
 invented passes for observed.
 """
@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
-from jaxtyping import Float, Integer, UInt8
+from jaxtyping import Float, UInt8
 
 from fitter.applications.atlas import atlas_of, drawn_on
-from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
-from fitter.applications.pelvis import pelvis_colours, through_pelvis
+from fitter.applications.hidden_colours import Worn
 from fitter.applications.picture_look import (
     BELIEVED,
+    DARKEST,
     BothSides,
     Look,
     at_vertices,
@@ -54,11 +54,8 @@ PICTURE_PIXELS = 2_000_000
 """Pixels of the picture that is laid on the body: then one of a standing person is a millimetre, as
 a texel of the largest atlas is."""
 
-TEXELS_OF_VERTEX, VERTEX_PICTURE_PIXELS = 50.0, 100_000
-"""Texels of an atlas of 1024 that one vertex stands for; pixels of a picture for vertices alone."""
-
-MIDDLE_SHARE = 0.05
-"""Weight of the trunk's middle as evidence of its back, against its sides."""
+VERTEX_PICTURE_PIXELS = 100_000
+"""Pixels of a picture for vertices alone."""
 
 
 class TexelOrigin(IntEnum):
@@ -140,8 +137,7 @@ def picture_colours(
     linear_rgb = linear_working_picture(bytes_of_display(display), size)
     person_in = working_coverage(255 * mask.astype(np.uint8), size) >= 0.5
     surface, model = _surface(person, evaluator, linear_rgb, person_in), evaluator.model
-    least_weight = LEAST_WEIGHT / TEXELS_OF_VERTEX
-    laid, _, _ = _laid(surface, surface.look, model, at_vertices(model), least_weight)
+    laid, _, _ = _laid(surface, surface.look, model, at_vertices(model))
     return np.clip(laid, 0.0, 1.0)
 
 
@@ -202,8 +198,7 @@ def _texture(
     model = evaluator.model
     atlas = atlas_of(model, size)
     points = SurfacePoints(corners=model.triangles[atlas.triangles], weights=atlas.weights)
-    least_weight = LEAST_WEIGHT * (size / 1024) ** 2
-    colours, seen, mirrored = _laid(surface, look, model, points, least_weight)
+    colours, seen, mirrored = _laid(surface, look, model, points)
     scale = max(1.0, float(np.percentile(colours, 99.5)) / lightest)
     origin = np.full(len(seen), TexelOrigin.CONTINUED, dtype=np.uint8)
     origin[seen + mirrored >= BELIEVED] = TexelOrigin.MIRRORED
@@ -222,71 +217,47 @@ def _texture(
 
 
 def _laid(
-    surface: PictureSurface,
-    look: Look,
-    model: BodyModel,
-    points: SurfacePoints,
-    least_weight: float,
+    surface: PictureSurface, look: Look, model: BodyModel, points: SurfacePoints
 ) -> tuple[Colours, Beliefs, Beliefs]:
     """Colours of points, how far each is seen, and how far its mirror image is instead."""
     sides = BothSides.of(look, model)
     found, seen, mirrored = sides.at(points)
     no_face = face_to_leave_out(surface, model)
-    hidden = _hidden_colours(sides, no_face, least_weight, points, found, seen + mirrored)
     seen, mirrored = (each * (1.0 - points.of(no_face)) for each in (seen, mirrored))
     belief = seen + mirrored
-    return belief[:, None] * found + (1.0 - belief[:, None]) * hidden, seen, mirrored
+    colours = belief[:, None] * found
+    hidden = np.flatnonzero(belief < 1.0)
+    invented = _hidden_colours(sides, surface, no_face, points.some(hidden))
+    colours[hidden] += (1.0 - belief[hidden, None]) * invented
+    return colours, seen, mirrored
 
 
 def _hidden_colours(
     sides: BothSides,
+    surface: PictureSurface,
     no_face: Float[np.ndarray, " m"],
-    least_weight: float,
     points: SurfacePoints,
-    found: Colours,
-    belief: Beliefs,
 ) -> Colours:
-    """Colours for all texels, as far as they are hidden, from what is found of the others."""
+    """Colours for points, as far as they are hidden, from what is found of the vertices."""
     model = sides.model
-    rings = RingCoordinates.of(model)
-    shown = np.flatnonzero(belief >= BELIEVED)
-    region, along_m = rings.of_points(points.some(shown))
-    profiles = ColourProfiles.of(
-        region,
-        along_m,
-        found[shown],
-        belief[shown] * _near_what_is_hidden(rings, region, points.some(shown)),
-        least_weight=least_weight,
-    )
     vertices = at_vertices(model)
-    of_vertices, seen, mirrored = sides.at(vertices)
+    found, seen, mirrored = sides.at(vertices)
     known = (seen + mirrored) * (1.0 - no_face) >= BELIEVED
-    if profiles.empty or not known.any():
+    if not known.any():
         raise InvalidInputError(
             code="body-not-seen",
             field="fit_id",
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    two = pelvis_colours(sides, points)
-
-    def continued(places: SurfacePoints) -> Colours:
-        colours = on_rings(rings, profiles, places)
-        return colours if two is None else through_pelvis(sides, two, places, colours)
-
-    light = extend_light(model, known, of_vertices, continued(vertices))
-    return continued(points) * np.exp(points.of(light))
-
-
-def _near_what_is_hidden(
-    rings: RingCoordinates, region: Integer[np.ndarray, " k"], points: SurfacePoints
-) -> Float[np.ndarray, " k"]:
-    """Weight of a point as evidence of the rest of its ring.
-
-    On the trunk the sides count: in front there are necklines, openings, fastenings and prints.
-    """
-    beside = MIDDLE_SHARE + (1.0 - MIDDLE_SHARE) * points.of(rings.beside) ** 2
-    return np.where(region == Region.TRUNK, beside, 1.0)
+    crown = surface.crown
+    if crown is not None:
+        # What light does to the picture's colours where they are known.
+        pictured = np.maximum(surface.colours(vertices.some(np.flatnonzero(known))), DARKEST)
+        crown = crown * np.median(found[known] / pictured)
+    worn = Worn.of(model, known, found, crown)
+    light = extend_light(model, known, found, worn.at(vertices))
+    return worn.at(points) * np.exp(points.of(light))
 
 
 DIM, LIT = 0.1, 0.35

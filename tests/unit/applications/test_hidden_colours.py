@@ -96,7 +96,7 @@ def texels(sitter, texture):
     """Region, height on the mean body, linear colour and origin of all texels."""
     points, inside = points_of(sitter), atlas_of(sitter.model, 512).inside
     return (
-        sitter.rings.of_points(points)[0],
+        points.of(sitter.rings.shares.T).argmax(axis=1),
         points.of(sitter.model.mean_vertices)[:, 1],
         texture.scale * linear_from_display(texture.levels[inside] / 255.0),
         texture.coverage[inside],
@@ -134,6 +134,19 @@ def test_a_head_seen_from_the_front_has_hair_behind(dressed):
     assert np.median(np.abs(colours[behind] - HAIR).max(axis=1)) < 0.02
 
 
+def test_a_hat_above_a_high_forehead_goes_all_round(sitter):
+    worn, outside = sitter.worn(), ~sitter.rendering.silhouette
+    worn[(worn == HAIR).all(axis=1)] = SKIN
+    picture, mask = sitter.photographed(worn), ~outside
+    column, line = sitter.pixel("head_top")
+    hat = np.s_[line - 18 : line + 25, column - 40 : column + 40]
+    mask[hat], picture[hat] = True, np.where(outside[hat][..., None], SHORTS, picture[hat])
+    texture = picture_texture(sitter.person, sitter.evaluator, picture, mask=mask, size=512)
+    region, _, colours, origin = texels(sitter, texture)
+    behind = (region == Region.SCALP) & (origin == TexelOrigin.CONTINUED)
+    assert np.median(np.abs(colours[behind] - SHORTS).max(axis=1)) < 0.02
+
+
 def test_hair_that_hangs_over_a_shirt_is_not_painted_on_it(sitter):
     picture = sitter.picture.copy()
     column, line = sitter.pixel("left_ear")
@@ -159,22 +172,6 @@ def test_a_shirt_of_the_hairs_colour_is_kept(sitter):
     on_shirt = (region == Region.TRUNK) & (height > WAIST_M + BORDER_M)
     on_shirt &= height < COLLAR_M - BORDER_M
     assert (np.abs(colours[on_shirt] - HAIR).max(axis=1) < 0.05).mean() > 0.9
-
-
-def test_hidden_texels_lie_within_the_colours_seen_of_their_region(sitter, dressed):
-    """But for where two regions blend."""
-    region, _, colours, origin = dressed
-    points = points_of(sitter)
-    within = points.of(sitter.rings.shares.T).max(axis=1) > 0.95
-    within &= (region != Region.ARMS) | (points.of(sitter.rings.along_m[Region.ARMS]) > 0.1)
-    for each in Region:
-        own = region == each
-        seen = colours[own & (origin == TexelOrigin.SEEN)]
-        invented = colours[own & within & (origin != TexelOrigin.SEEN)]
-        assert len(seen) > 100
-        assert len(invented) > 100
-        assert (invented > seen.min(axis=0) - 0.01).all()
-        assert (invented < seen.max(axis=0) + 0.01).all()
 
 
 def test_no_texel_has_a_colour_from_beyond_the_mask(sitter):
