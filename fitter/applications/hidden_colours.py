@@ -20,8 +20,7 @@ from jaxtyping import Bool, Float, Integer
 from scipy import sparse
 from scipy.spatial import KDTree
 
-from fitter.applications.picture_look import DARKEST
-from fitter.applications.picture_surface import Colours, SurfacePoints, smooth_step
+from fitter.applications.picture_surface import DARKEST, Colours, SurfacePoints, smooth_step
 from fitter.applications.pieces import cloth_colours, pieces_of, vertex_areas
 from fitter.applications.rings import Region, RingCoordinates, landmark
 from fitter.arrays import Vector3
@@ -41,6 +40,9 @@ SAME_CLOTH = 10.0
 MOST_LIGHT, MOST_HUE, LEAST_TINT = 1.0, 0.25, 0.4
 """Or logarithms of the most that light differs by, of what channels differ by in that, and of what
 they differ by in a colour: skin in the shade loses chroma, but greys are different cloths."""
+
+SHADE_M = 0.05
+"""Deviation of heights from which what is seen of a piece tells how it is shaded from above."""
 
 BELOW_NAVEL_M, BELOW_CROTCH_M = (0.03, 0.08), (0.1, 0.16)
 """Over which a point begins to be like the one before it, and ends: a bare back has no navel, and
@@ -99,21 +101,21 @@ class Worn:
         piece = np.where(np.append(large, False)[piece], piece, -1)
         # Numbers without gaps, and -1 for none.
         piece = np.unique(np.append(piece, -1), return_inverse=True)[1][:-1] - 1
-        plain = [np.median(colours[piece == each], axis=0) for each in range(piece.max() + 1)]
+        plain = [_shaded(model, piece == each, colours) for each in range(piece.max() + 1)]
         rings = RingCoordinates.of(model)
         skin = _skin(rings, piece, areas)
         if skin is not None:
             piece[(piece < 0) & (rings.features > 0.5)] = skin
         if crown is not None:
             piece[(piece < 0) & (rings.shares[Region.SCALP] > 0.5)] = len(plain)
-            plain.append(crown)
-        of_piece = np.bincount(piece[piece >= 0], areas[piece >= 0], len(plain))
-        cloth = _alike(np.stack(plain), of_piece)
+            plain.append(np.tile(crown, (len(piece), 1)))
+        colours, given = np.stack(plain), piece >= 0
+        cloth = _alike(colours.mean(axis=1), np.bincount(piece[given], areas[given], len(plain)))
         is_skin = np.zeros(len(plain), dtype=bool) if skin is None else cloth == cloth[skin]
         shares = _carried_on(model, piece, cloth, is_skin) + _LEAST_SHARE
         own = np.arange(cloth.max() + 1)[:, None] == cloth
         totals = shares @ own.T
-        sums = np.einsum("mk,gk,kc->mgc", shares, own, np.stack(plain), optimize=True)
+        sums = np.einsum("mk,gk,kmc->mgc", shares, own, colours, optimize=True)
         return cls(shares=totals, colours=sums / totals[..., None])
 
     def at(self, points: SurfacePoints) -> Colours:
@@ -127,6 +129,18 @@ class Worn:
             own = mixed[worn == each]
             colours[own] = points.some(own).of(np.ascontiguousarray(self.colours[:, each]))
         return colours
+
+
+def _shaded(
+    model: BodyModel, own: Bool[np.ndarray, " m"], colours: Float[np.ndarray, "m 3"]
+) -> Float[np.ndarray, "m 3"]:
+    """Linear colours of a piece at all heights: light from above stays, prints go."""
+    height, worn = model.mean_vertices[:, 1], cloth_colours(colours)
+    plain = own & (np.linalg.norm(worn - np.median(worn[own], axis=0), axis=1) < SAME_CLOTH)
+    away = np.clip(height, height[plain].min(), height[plain].max()) - height[plain].mean()
+    mean = colours[plain].mean(axis=0)
+    spread = np.sum(away[plain] ** 2 + SHADE_M**2)
+    return mean + away[:, None] * (away[plain] @ (colours[plain] - mean) / spread)
 
 
 def _skin(
@@ -167,8 +181,6 @@ def _carried_on(
     shares = np.zeros((len(piece), len(cloth)))
     given, hidden = np.flatnonzero(piece >= 0), np.flatnonzero(piece < 0)
     shares[given, piece[given]] = 1.0
-    if not len(hidden):
-        return shares
     stiffness = _stiffness(model)[hidden]
     likeness, opposite = _straight_through(
         model, given, hidden, cloth[piece[given]], is_skin[piece[given]]

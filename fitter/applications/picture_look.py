@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from fitter.applications.picture_surface import (
+    DARKEST,
     Beliefs,
     Colours,
     PictureSurface,
@@ -34,9 +35,6 @@ MOST_TURNED_DEG = 55.0
 
 LEAST_OF_FACE = 0.35
 """Mean belief of the half of a face that is seen better, from which the face is believed."""
-
-DARKEST = 0.004
-"""Least linear light that is told apart; below it noise dominates."""
 
 
 def at_vertices(model: BodyModel) -> SurfacePoints:
@@ -70,8 +68,6 @@ MOST_RATIO, MOST_TINT = 1.5, 0.35
 """Logarithms of the most that light differs by, and that its channels differ by in that: more is
 another colour, which is not carried on."""
 
-_CHUNK = 1 << 17
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BothSides:
@@ -100,14 +96,6 @@ class BothSides:
 
         The colour is the mean of both, each by its weight; the point itself comes first.
         """
-        parts = [
-            self._at_few(points.some(slice(first, first + _CHUNK)))
-            for first in range(0, len(points.corners), _CHUNK)
-        ]
-        colours, seen, mirrored = (np.concatenate(part) for part in zip(*parts, strict=True))
-        return colours, seen, mirrored
-
-    def _at_few(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
         colours, seen = self.look(points)
         other, belief = self.look(points.moved(self.model.mirror))
         other = other * np.exp(points.of(self.ratios))

@@ -260,8 +260,9 @@ CHROMA, DARKEST_SHADE = 0.35, 0.06
 """Hair whose channels are in the same ratio to the face's within the first (of logarithms), and
 brighter than this share of it, cannot be told from skin in the shade: it is left where it is."""
 
-_DARKEST = 0.004
-# Of linear light; below it noise dominates.
+DARKEST = 0.004
+"""Least linear light that is told apart; below it noise dominates."""
+
 _DEVIATIONS = np.array([[8.0, 3.0, 3.0], [16.0, 6.0, 6.0]])
 # Least and most of L, a, b (8 bits): light on hair changes its brightness most.
 
@@ -332,8 +333,8 @@ def _may_be_skin(hair: Vector3, face: Float[np.ndarray, "k 3"]) -> bool:
     """Whether a linear colour may also be the face's in the shade, which leaves chroma as it is."""
     if len(face) < LEAST_SEEN:
         return False
-    skin = np.maximum(np.median(face, axis=0), _DARKEST)
-    hair = np.maximum(hair, _DARKEST)
+    skin = np.maximum(np.median(face, axis=0), DARKEST)
+    hair = np.maximum(hair, DARKEST)
     alike = np.ptp(np.log(hair / skin)) < CHROMA
     return bool(alike) and float(hair.sum()) > DARKEST_SHADE * float(skin.sum())
 

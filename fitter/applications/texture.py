@@ -16,7 +16,6 @@ from fitter.applications.atlas import atlas_of, drawn_on
 from fitter.applications.hidden_colours import Worn
 from fitter.applications.picture_look import (
     BELIEVED,
-    DARKEST,
     BothSides,
     Look,
     at_vertices,
@@ -24,6 +23,7 @@ from fitter.applications.picture_look import (
     face_to_leave_out,
 )
 from fitter.applications.picture_surface import (
+    DARKEST,
     Beliefs,
     Colours,
     PictureSurface,
@@ -250,11 +250,10 @@ def _hidden_colours(
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    crown = surface.crown
-    if crown is not None:
-        # What light does to the picture's colours where they are known.
-        pictured = np.maximum(surface.colours(vertices.some(np.flatnonzero(known))), DARKEST)
-        crown = crown * np.median(found[known] / pictured)
+    # What is done to the picture's colours, as by dividing its light out.
+    pictured = np.maximum(surface.colours(vertices), DARKEST)
+    done = np.median(found[known] / pictured[known])
+    crown = None if surface.crown is None else done * surface.crown
     worn = Worn.of(model, known, found, crown)
     light = extend_light(model, known, found, worn.at(vertices))
     return worn.at(points) * np.exp(points.of(light))

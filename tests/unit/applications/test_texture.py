@@ -199,9 +199,9 @@ def test_vertices_alone_have_the_colours_that_were_painted(sitter):
     display = display_from_linear(sitter.even)
     colours = picture_colours(sitter.person, sitter.evaluator, display, seen.silhouette)
     away = np.abs(colours - sitter.paint).max(axis=1)
-    # A fifth is seen squarely; the rest is like what was painted on its ring.
+    # A fifth is seen squarely; the rest is like what was painted there on the other side.
     assert np.quantile(away, 0.2) < 0.007
-    assert away.max() < 0.07
+    assert away.max() < 0.08
 
 
 def test_a_body_out_of_the_picture_has_no_texture(sitter):
