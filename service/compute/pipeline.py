@@ -17,7 +17,6 @@ from fitter.export.views import BodyView, preview
 from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
 from fitter.result import FitResult
-from fitter.vocabulary.outcomes import Verdict
 from service.compute import translate
 from service.compute.fit_results import fit_result
 from service.compute.products.finished_fit import FinishedFit, Made, finished_fit
@@ -70,7 +69,7 @@ def _from_all_round(found: FitResult, evaluator: ScapeEvaluator) -> bytes:
     """The body in the colours of its picture; of clay where it does not match that."""
     body, colours = found.canonical_vertices, None
     views = [BodyView(label=label, vertices=body, degrees=degrees) for label, degrees in _SEEN_FROM]
-    if found.found.verdict is Verdict.PLAUSIBLE:
+    if found.found.is_plausible:
         seen = found.views[0].pictures
         with suppress(InvalidInputError):
             colours = picture_colours(found.person, evaluator, seen.image, seen.segmentation)

@@ -25,6 +25,7 @@ LOG: Final = logging.getLogger(__name__)
 
 def _load(settings: Settings) -> None:
     # Imported here: Numba reads once where its cache is.
+    from fitter.applications.rings import RingCoordinates
     from fitter.detection.detector import installed_detector
     from fitter.errors import DetectorUnavailableError, ModelFileError
     from fitter.fits.equipment import prepared_model
@@ -43,7 +44,7 @@ def _load(settings: Settings) -> None:
         except Exception:
             LOG.exception("The sample could not be fitted: every fit takes longer.")
         for gender in Gender:
-            prepared_model(gender, models=settings.models_dir)
+            RingCoordinates.of(prepared_model(gender, models=settings.models_dir).operators.model)
 
 
 def _keep_no_more() -> None:

@@ -15,7 +15,7 @@ const remark = (code: string, severity: Remark["severity"] = "warns"): Remark =>
 test("the grade follows the verdict, the outcomes and what there is to look at", () => {
   assert.equal(gradeOf(of({})), "good");
   for (const view of [{ outcome: "evaluation_limit" as const }, { findings: [remark("blurred")] }, { warnings: [remark("blurred")] }]) assert.equal(gradeOf(of(view)), "fair");
-  assert.equal(gradeOf(of({}, { warnings: [remark("blurred")] })), "fair");
+  for (const rest of [{ warnings: [remark("blurred")] }, { assumptions: [remark("height-assumed", "assumed")] }]) assert.equal(gradeOf(of({}, rest)), "fair");
   assert.equal(gradeOf(of({ outcome: "poor_fit" })), "poor");
   assert.equal(gradeOf(of({}, { verdict: "no_person" })), "poor");
 });

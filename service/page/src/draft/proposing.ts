@@ -10,6 +10,7 @@ import { NO_POINTS } from "../points/placed";
 import { around, countProposed, isAllProposed, personAt, proposedPoints, wholePerson } from "../points/proposed";
 import { advance, begin } from "../points/timeline";
 import { announce } from "../ui/announce";
+import { answered } from "../ui/answered";
 import { canPropose, change, current, doubted, isAwaiting, points, selected, views } from "./draft";
 import type { DraftView, Wish } from "./draft";
 
@@ -32,6 +33,9 @@ export const looked = computed(() => around(proposal.value?.persons ?? []));
 export const proposalWord = computed(() => {
   const { stage } = messages;
   if (isProposing.value) return stage.proposing;
+  // On a phone all that is said of it lies below the picture.
+  const problem = current.value?.problem.value;
+  if (problem) return answered("titles", problem.type.split("/").at(-1)!) ?? problem.title;
   if (isNobody.value) return stage.nobody;
   if (others.value.length > 0) return stage.several(others.value.length);
   return null;

@@ -42,6 +42,7 @@ export const answers = {
     "not-found": "It does not exist, or it was erased.",
     "person-not-found":
       "The body does not match the points. Check that they lie on the right joints, or choose a picture of the whole person.",
+    "payload-too-large": "It has more bytes than the service takes. Save the picture as a JPEG, or make it smaller: 1500 pixels are plenty.",
     "point-outside-image": "This point lies outside the picture. Move it or remove it.",
     "points-too-close": "All points are close together. Crop the picture to the person, or check the points.",
     "queue-full": "Too many pictures are waiting. Try again in a moment.",

@@ -11,7 +11,7 @@ export const person = {
   weight: "Weight",
   symbols: { cm: "cm", ft: "ft", in: "in", kg: "kg", lb: "lb" },
   heightHeld: "Height is held exactly as given.",
-  meanHeight: "Give the height if you know it: all measurements scale with it.",
+  meanHeight: "Give the height if you know it: measurements scale with it.",
   assumedHeight: (height: string) => `No height given: ${height} is assumed, and all measurements scale with it.`,
   weightHelps: "If you know the weight, give it: it helps most, since one picture does not show how deep a body is.",
   faults: {

@@ -6,15 +6,16 @@ import { answered } from "../ui/answered";
 
 export type Grade = "good" | "fair" | "poor";
 
-/** Poor by verdict or outcome, fair where a warning or a finding asks to look, else good. */
-export function gradeOf({ verdict, warnings, views }: Judged): Grade {
+/** Poor by verdict or outcome, fair where a warning or a finding asks to look or the height is a guess, else good. */
+export function gradeOf({ verdict, assumptions, warnings, views }: Judged): Grade {
   if (verdict !== "plausible" || views.some(({ outcome }) => outcome === "poor_fit")) return "poor";
   const isDoubted = views.some((view) => view.outcome !== "converged" || view.findings.length + view.warnings.length > 0);
-  return isDoubted || warnings.length > 0 ? "fair" : "good";
+  const isGuessed = assumptions.some(({ code }) => code === "height-assumed");
+  return isDoubted || isGuessed || warnings.length > 0 ? "fair" : "good";
 }
 
 type JudgedView = Pick<ViewResult, "outcome"> & { readonly findings: readonly unknown[]; readonly warnings: readonly unknown[] };
-type Judged = Pick<FitResult, "verdict"> & { readonly warnings: readonly unknown[]; readonly views: readonly JudgedView[] };
+type Judged = Pick<FitResult, "verdict" | "assumptions"> & { readonly warnings: readonly unknown[]; readonly views: readonly JudgedView[] };
 
 /** Whether measurements of this body are to be shown as such. */
 export function isReliable(result: Judged): boolean {

@@ -111,7 +111,8 @@ export function TryView() {
 /** In its colours once they are there. */
 function Upright({ fit }: { fit: Fit }) {
   const skin = useSkin(fit.id, true);
-  return skin.state === "coming" ? null : <DerivedCanvas path={fit.links.files["body_canonical.glb"]!} skin={skin.path} label={messages.trying.body} />;
+  if (skin.state === "coming") return <p class="fine">{messages.look.skinComes}</p>;
+  return <DerivedCanvas path={fit.links.files["body_canonical.glb"]!} skin={skin.path} label={messages.trying.body} />;
 }
 
 function Code({ label, text, rows, onEdit }: { label: string; text: string; rows: number; onEdit?: (text: string) => void }) {
