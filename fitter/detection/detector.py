@@ -35,7 +35,12 @@ from fitter.detection.person_detector import (
     PersonDetector,
 )
 from fitter.detection.weights import checked_weights
-from fitter.detection.worn_parts import WornPart, WornParts, installed_worn_parts
+from fitter.detection.worn_parts import (
+    WornPart,
+    WornParts,
+    WornShares,
+    installed_worn_parts,
+)
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
 
@@ -155,17 +160,17 @@ class Detector:
                 found.append(_proposed(person, landmarks))
         return tuple(found)
 
-    def outer_cloth(
+    def worn(
         self, picture: UInt8[np.ndarray, "h w 3"], person: DetectedPerson
-    ) -> GreyImage | None:
-        """Probability (h, w) of cloth over other cloth, where a person is seen.
-
-        None without the network of parts worn.
-        """
+    ) -> WornShares | None:
+        """What a person's pixels show. None without the network of parts worn."""
         if self._worn is None:
             return None
         maps = self._worn.maps(picture, person)
-        return maps[..., WornPart.OUTER] / np.maximum(1.0 - maps[..., WornPart.BACKGROUND], 0.01)
+        shown = np.maximum(1.0 - maps[..., WornPart.BACKGROUND], 0.01)
+        return WornShares(
+            skin=maps[..., WornPart.SKIN] / shown, outer=maps[..., WornPart.OUTER] / shown
+        )
 
 
 @cache

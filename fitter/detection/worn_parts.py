@@ -18,6 +18,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float, Float32, UInt8
 
+from fitter.arrays import GreyImage
 from fitter.detection.body_landmarks import INPUT_SIZE, crop_about
 from fitter.detection.network import ActivationNetwork
 from fitter.detection.person_detector import DetectedPerson
@@ -202,6 +203,14 @@ def _interpolated(maps: Maps, rows: np.ndarray, columns: np.ndarray) -> Float[np
         for each in (row, row + 1)
     )
     return above * (1.0 - down) + below * down
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class WornShares:
+    """Probabilities (h, w) of skin and of outer cloth where a pixel shows the person."""
+
+    skin: GreyImage
+    outer: GreyImage
 
 
 class WornParts:

@@ -5,9 +5,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitter.arrays import GreyImage, Image, Points3D
+from fitter.arrays import Image, Points3D
 from fitter.capture.capture import Capture, Directions
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
+from fitter.detection.worn_parts import WornShares
 from fitter.energies.objective import Candidate
 from fitter.errors import InvalidInputError
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
@@ -94,8 +95,8 @@ def capture_of(
     )
     if detector is None or capture.body is None or capture.stature_px is None:
         return capture
-    outer_cloth = detector.outer_cloth(working, capture.body.person)
-    return _with_clothing(capture, linear_rgb, outer_cloth, question.gender)
+    worn = detector.worn(working, capture.body.person)
+    return _with_clothing(capture, linear_rgb, worn, question.gender)
 
 
 def capture_of_fit(
@@ -154,7 +155,7 @@ def directions_of(joints: Points3D, part_names: Sequence[str]) -> Directions:
 
 
 def _with_clothing(
-    capture: Capture, linear_rgb: Image, outer_cloth: GreyImage | None, gender: Gender | None
+    capture: Capture, linear_rgb: Image, worn: WornShares | None, gender: Gender | None
 ) -> Capture:
     """The same with the covering of each region, by parts that are told by the bones."""
     assert capture.mask is not None
@@ -171,13 +172,19 @@ def _with_clothing(
         face=np.mean(face, axis=0) if face else None,
         pixels_per_metre=pixels_per_metre / step,
     )
+    if worn is not None:
+        worn = WornShares(
+            skin=np.ascontiguousarray(worn.skin[::step, ::step]),
+            outer=np.ascontiguousarray(worn.outer[::step, ::step]),
+        )
     clothing = clothing_seen(
         np.ascontiguousarray(linear_rgb[::step, ::step]),
+        worn,
         regions,
         part_joints(points),
         gender=None if gender is None else gender.value,
     )
-    over = worn_over(None if outer_cloth is None else outer_cloth[::step, ::step], regions)
+    over = worn_over(worn, regions)
     over_top = None if over is None else float(over.max())
     return replace(capture, clothing=clothing, over_top=over_top)
 

@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from fitter.arrays import GreyImage, Image
 from fitter.body.model import regress
+from fitter.detection.worn_parts import WornShares
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import IntensityMap, seen_vertices
 from fitter.evidence.loose_outline import LooseClothes
@@ -28,6 +29,7 @@ from fitter.segmentation.skin_colour import (
     PersonRegions,
     SkinMap,
     face_point,
+    nearest_of,
     nearest_part,
     skin_map,
 )
@@ -77,7 +79,7 @@ def dressed(
         face=_face(observation, rendering, prepared),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
-    skin = _skin(observation.linear_rgb, regions)
+    skin = _skin(observation.linear_rgb, observation.worn, regions)
     seen = coverage(skin, regions, prepared.searched.model.gender)
     covered = _as_said(seen, said)
     if not SAID_LOOSE & said.both and covered.anything < LEAST_COVERED:
@@ -86,7 +88,7 @@ def dressed(
     bare = skin.probability if said.both <= SAID_LOOSE else covered.bare(skin, regions)
     loose = _loose(said, regions, bare, _joints_seen(rendering, prepared), skin)
     cloth = (1.0 - bare).astype(np.float32)
-    over = worn_over(observation.outer_cloth, regions)
+    over = worn_over(observation.worn, regions)
     if said.upper is Clothing.OUTER:
         over = np.ones_like(cloth)
     fullness = CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose
@@ -113,6 +115,7 @@ def dressed(
 
 def clothing_seen(
     linear_rgb: Image,
+    worn: WornShares | None,
     regions: PersonRegions,
     joints: Mapping[str, Float[np.ndarray, "2"]],
     *,
@@ -126,11 +129,13 @@ def clothing_seen(
     ----------
     linear_rgb
         (h, w, 3) linear light.
+    worn
+        What a network sees there, if it was asked.
     joints
         Where the parts begin, by their names, continuous pixels.
     """
     said = SaidClothing(upper=Clothing.AUTO, lower=Clothing.AUTO)
-    skin = _skin(linear_rgb, regions)
+    skin = _skin(linear_rgb, worn, regions)
     if not skin.learnt_from:
         return None
     covered = coverage(skin, regions, gender)
@@ -167,8 +172,11 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
     return np.where(faces >= 0, prepared.searched.model.part_of_triangle[faces], -1)
 
 
-def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
-    """Map of skin, from every second or third pixel where there are enough."""
+def _skin(linear_rgb: Image, worn: WornShares | None, regions: PersonRegions) -> SkinMap:
+    """Map of skin: colours of every second or third pixel where there are enough, and a network's.
+
+    In a picture without colours the network, which has seen none, is not believed.
+    """
     step = max(int(regions.pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
     middle = slice(step // 2, None, step)
     fewer = replace(
@@ -185,11 +193,15 @@ def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
             for size, fewer_size in zip(regions.person.shape, fewer.person.shape, strict=True)
         )
     )
-    return replace(
+    found = replace(
         found,
         probability=found.probability[nearest],
         coloured=found.coloured[nearest] & regions.person,
     )
+    if worn is None or not found.learnt_from:
+        return found
+    seen = worn.skin.ravel()[nearest_of(regions.person)]
+    return replace(found, probability=seen, by_network=True)
 
 
 def _as_said(found: Coverage, said: SaidClothing) -> Coverage:

@@ -17,6 +17,7 @@ from scipy.special import expit
 
 from fitter.arrays import GreyImage
 from fitter.body.model import BodyModel, regress
+from fitter.detection.worn_parts import WornShares
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.equipment import PreparedModel
@@ -129,18 +130,17 @@ def shares_by_sleeves(regions: PersonRegions, bare: GreyImage) -> TopShares:
     return TopShares(trunk=trunk, any_trunk=any_trunk, arms=arms)
 
 
-def worn_over(seen: GreyImage | None, regions: PersonRegions) -> GreyImage | None:
+def worn_over(worn: WornShares | None, regions: PersonRegions) -> GreyImage | None:
     """Probability (h, w) that what a pixel shows is worn over a top; off the person, the nearest's.
 
-    ``seen`` (h, w) is what a network says of each pixel by itself. None where it says nothing, or
-    no trunk is in sight.
+    None where no network says what a pixel shows by itself, or no trunk is in sight.
     """
     numbers = [n for n, name in enumerate(regions.part_names) if name in _OF_TRUNK]
     trunk = regions.person & np.isin(regions.parts, numbers)
-    if seen is None or np.count_nonzero(trunk) < LEAST_SAMPLES:
+    if worn is None or np.count_nonzero(trunk) < LEAST_SAMPLES:
         return None
-    is_worn = expit((float(seen[trunk].mean()) - WORN_OVER) / WORN_OVER_SPREAD)
-    shows = expit((seen - SHOWS_OVER) / SHOWS_OVER_SPREAD)
+    is_worn = expit((float(worn.outer[trunk].mean()) - WORN_OVER) / WORN_OVER_SPREAD)
+    shows = expit((worn.outer - SHOWS_OVER) / SHOWS_OVER_SPREAD)
     return (is_worn * shows).astype(np.float32).ravel()[nearest_of(regions.person)]
 
 

@@ -13,6 +13,7 @@ from fitter.detection.detector import (
     body_of_clicks,
     is_somebody_at,
 )
+from fitter.detection.worn_parts import WornShares
 from fitter.errors import InvalidInputError
 from fitter.observation.clicks import (
     check_clicks,
@@ -81,9 +82,9 @@ class Observation:
         Whether the detector finds the face of who is seen from the front hidden.
     bodies
         Everybody the detector finds; None if it was not asked.
-    outer_cloth
-        (h, w) probability that what is seen is worn over other clothes, by the detector; None if it
-        finds nobody, or was not asked.
+    worn
+        Where skin shows and outer cloth, by the detector; None if it finds nobody, or was not
+        asked.
     """
 
     display: Image
@@ -102,7 +103,7 @@ class Observation:
     detected: bool | None
     hides_face: bool
     bodies: tuple[DetectedBody, ...] | None
-    outer_cloth: GreyImage | None
+    worn: WornShares | None
     assumptions: tuple[Remark, ...]
     warnings: tuple[Remark, ...]
 
@@ -135,9 +136,9 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
     shown = bytes_of_display(display)
     bodies = () if detector is None else detector.bodies(shown, view.kind)
     detected = body_of_clicks(bodies, clicks)
-    outer_cloth = None
+    worn = None
     if detector is not None and detected is not None:
-        outer_cloth = detector.outer_cloth(shown, detected.person)
+        worn = detector.worn(shown, detected.person)
     if view.complete_clicks:
         clicks = completed_clicks(given, detected)
         # Up to one working pixel may be left out at the right and lower border of the original.
@@ -166,7 +167,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         detected=None if detector is None else is_somebody_at(bodies, given),
         hides_face=detected is not None and detected.hides_face,
         bodies=None if detector is None else tuple(bodies),
-        outer_cloth=outer_cloth,
+        worn=worn,
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings + side_warnings(clicks),
     )

@@ -80,11 +80,14 @@ class SkinMap:
     learnt_from
         What the skin's colour was learnt from: ``face``, ``hands`` or nothing, for instance if the
         picture has no colours; then head, neck and hands are bare, as is usual, and nothing else.
+    by_network
+        Whether ``probability`` is what a network sees, not what colours tell.
     """
 
     probability: GreyImage
     coloured: Mask
     learnt_from: tuple[str, ...]
+    by_network: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitter.detection.worn_parts import WornShares
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.fits.clothing_report import worn_regions
 from fitter.fits.ease import USUAL_EASE_M, TopShares, shares_by_sleeves, usual_fullness, worn_over
@@ -142,7 +143,10 @@ def test_a_top_that_covers_forearms_is_wider():
 def test_outer_cloth_counts_where_it_shows_on_who_wears_it():
     regions = forearms(seen=True)
     shown = np.where(np.indices(regions.parts.shape)[1] % 3 > 0, np.float32(0.8), np.float32(0.05))
-    jacket, shirt = (np.array(worn_over(share * shown, regions)) for share in (1.0, 0.2))
+    jacket, shirt = (
+        np.array(worn_over(WornShares(skin=0.0 * shown, outer=share * shown), regions))
+        for share in (1.0, 0.2)
+    )
     assert ((jacket > 0.9) == (shown > 0.5)).all()
     assert shirt.max() < 0.1
     assert worn_over(None, regions) is None

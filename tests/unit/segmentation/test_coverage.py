@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.segmentation.coverage import Coverage, coverage, skin_shares
+from fitter.segmentation.coverage import Coverage, coverage, region_means
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 
 PARTS = (
@@ -38,8 +38,14 @@ def shown(shares: dict[str, float], unseen: tuple[str, ...] = ()) -> tuple[SkinM
     return skin, regions
 
 
-def of(shares: dict[str, float], gender: str = "male") -> Coverage:
-    return coverage(*shown(shares), gender)
+def of(
+    shares: dict[str, float], gender: str = "male", seen: dict[str, float] | None = None
+) -> Coverage:
+    """Coverage by colours, and by what a network sees, if it was asked."""
+    skin, regions = shown(shares)
+    if seen is not None:
+        skin = replace(skin, probability=shown(seen)[0].probability, by_network=True)
+    return coverage(skin, regions, gender)
 
 
 @pytest.mark.parametrize(
@@ -87,6 +93,30 @@ def test_a_woman_s_top_of_the_skin_s_colour_is_a_top():
     assert found.top_like_skin > 0.9
 
 
+BEIGE_CLOTHES = {"head": 0.8, "chest": 0.6, "spine": 0.6, "pelvis": 0.6, "thigh": 0.6}
+
+
+def test_clothes_of_the_skin_s_colour_in_which_a_network_sees_no_skin_cover():
+    assert of(BEIGE_CLOTHES).anything < 0.5
+    found = of(BEIGE_CLOTHES, seen={"head": 0.8})
+    assert min(found.top, found.bottom) > 0.8
+
+
+def test_little_skin_for_a_network_does_not_dress_who_shows_its_colour():
+    little = {"head": 0.8, "chest": 0.2, "spine": 0.15, "thigh": 0.2}
+    assert of(UNDERWEAR, seen=little).anything < 0.2
+
+
+def test_below_a_top_a_network_tells_skin_whatever_its_colour():
+    skin, regions = shown({"head": 0.8, "chest": 0.95, "spine": 0.95, "pelvis": 0.9})
+    seen = replace(skin, probability=np.full(skin.probability.shape, 0.3, np.float32))
+    dressed = Coverage(top=1.0, bottom=1.0, top_like_skin=1.0, bottom_like_skin=0.0)
+    waist = regions.parts == PARTS.index("spine")
+    assert dressed.bare(skin, regions)[waist].max() < 0.2
+    by_network = dressed.bare(replace(seen, by_network=True), regions)
+    assert by_network == pytest.approx(np.full(by_network.shape, 0.3))
+
+
 def test_without_colours_trunk_and_legs_are_taken_to_be_covered():
     skin, regions = shown(UNDERWEAR)
     grey = coverage(replace(skin, learnt_from=()), regions, "male")
@@ -94,7 +124,8 @@ def test_without_colours_trunk_and_legs_are_taken_to_be_covered():
 
 
 def test_parts_out_of_sight_have_no_share():
-    shares = skin_shares(*shown(UNDERWEAR, unseen=("left_thigh", "right_thigh", "spine")))
+    skin, regions = shown(UNDERWEAR, unseen=("left_thigh", "right_thigh", "spine"))
+    shares = region_means(skin.coloured, regions)
     assert "thighs" not in shares
     assert "waist" not in shares
     assert shares["chest"] == pytest.approx(0.9)
