@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fitter.vocabulary.choices import Clothing, Cues
 from tests.accuracy.runs import of_each, picture_of
 from tests.accuracy.scoring import Scored, fit_picture, score
-from tests.accuracy.seen_labels import label_overlaps, seen_labels
+from tests.accuracy.seen_labels import label_overlaps, seen_parts
 from tests.accuracy.true_picture import Told, TruePicture
 
 NOTHING_SAID = Clothing.AUTO.value
@@ -52,10 +52,7 @@ def _score(picture: TruePicture, said: str, told: Told) -> DressedScore:
     fitted = fit_picture(picture, Cues.SES, told)
     overlaps: Mapping[str, float | None] = {}
     if said == NOTHING_SAID and picture.labels is not None:
-        overlaps = label_overlaps(
-            seen_labels(fitted.result, picture.request.views[0], picture.labels.shape),
-            picture.labels,
-        )
+        overlaps = label_overlaps(seen_parts(picture.request.views[0].image), picture.labels)
     return DressedScore(said=said, outfit=picture.outfit, scored=score(fitted), overlaps=overlaps)
 
 

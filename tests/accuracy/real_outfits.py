@@ -21,7 +21,7 @@ from fitter.fits.pipeline import fit
 from fitter.vocabulary.choices import Clothing, Gender
 from tests.accuracy.runs import of_each
 from tests.accuracy.scene import Label
-from tests.accuracy.seen_labels import CLASSES, Labels, label_overlaps, seen_labels
+from tests.accuracy.seen_labels import CLASSES, Labels, label_overlaps, seen_parts
 from tests.accuracy.table import MEASUREMENTS
 from tests.one_picture import one_picture
 
@@ -73,8 +73,9 @@ def _fitted(
     person, outfit = asked
     gender = Gender(people[person]["gender"])
     stem = folder / f"{person}_{outfit}_front"
+    image = Path(f"{stem}_img.png").read_bytes()
     request = one_picture(
-        image=Path(f"{stem}_img.png").read_bytes(),
+        image=image,
         clicks={},
         complete_clicks=True,
         gender=gender,
@@ -92,7 +93,7 @@ def _fitted(
         values={key: found[key].value for _, key, _ in MEASUREMENTS},
         errors={key: found[key].standard_error or 0.0 for _, key, _ in MEASUREMENTS},
         findings=[each.code for each in result.found.findings],
-        overlaps=label_overlaps(seen_labels(result, request.views[0], true.shape), true),
+        overlaps=label_overlaps(seen_parts(image), true),
     )
 
 
