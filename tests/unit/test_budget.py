@@ -16,7 +16,7 @@ ROOT: Final = Path(__file__).parents[2]
 
 CEILINGS: Final = {
     "service and api_schemas: lines of Python": 18_073,
-    "fitter without training: lines of Python": 36_745,
+    "fitter without training: lines of Python": 36_807,
     "fitter/training: lines of Python": 9_890,
     "product modules": 440,
     "operations": 30,
@@ -27,7 +27,7 @@ CEILINGS: Final = {
     "page: lines of TypeScript and CSS": 15_000,
     "documentation: words": 32_894,
     "run-time dependencies": 24,
-    "tests: lines of Python": 53_710,
+    "tests: lines of Python": 53_686,
     "tests: modules": 397,
 }
 
