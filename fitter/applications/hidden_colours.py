@@ -8,7 +8,8 @@ from between the legs to the hips: there a hidden point is also like the one see
 or behind it. Where hidden meets seen its light follows what is seen
 (:func:`fitter.applications.picture_look.extend_light`).
 
-The head's back is hair, or a hat: what the picture shows about the crown. An unseen face is skin.
+The head's back is hair, or a hat: what the picture shows about the crown. Ears are skin, and so is
+a face that is not seen.
 """
 
 from dataclasses import dataclass
@@ -41,6 +42,9 @@ MOST_LIGHT, MOST_HUE, LEAST_TINT = 1.0, 0.25, 0.4
 """Or logarithms of the most that light differs by, of what channels differ by in that, and of what
 they differ by in a colour: skin in the shade loses chroma, but greys are different cloths."""
 
+WITHIN = 0.75
+"""Share of a region from which a point is told by that alone."""
+
 SHADE_M = 0.05
 """Deviation of heights from which what is seen of a piece tells how it is shaded from above."""
 
@@ -49,7 +53,7 @@ BELOW_NAVEL_M, BELOW_CROTCH_M = (0.03, 0.08), (0.1, 0.16)
 cloth goes round legs."""
 
 BESIDE = (0.3, 0.6)
-"""Shares of the trunk's half width over which that begins above: necklines are another behind."""
+"""Shares of the way to the shoulder over which that begins above: necklines are another behind."""
 
 THROUGH_M, ASIDE_M, NEAREST = 0.04, 0.03, 4
 """Distance round the body over which that is forgotten; most between two such points as seen from
@@ -105,9 +109,15 @@ class Worn:
         rings = RingCoordinates.of(model)
         skin = _skin(rings, piece, areas)
         if skin is not None:
-            piece[(piece < 0) & (rings.features > 0.5)] = skin
+            bare = (rings.shares[Region.FACE] > WITHIN) & (
+                model.mean_vertices[:, 1] > landmark(model, "chin")[1]
+            )
+            if seen[rings.features > WITHIN].any():
+                # What hides a forehead may be hair.
+                bare &= rings.features < 1.0 - WITHIN
+            piece[(piece < 0) & bare] = skin
         if crown is not None:
-            piece[(piece < 0) & (rings.shares[Region.SCALP] > 0.5)] = len(plain)
+            piece[(piece < 0) & (rings.shares[Region.SCALP] > WITHIN)] = len(plain)
             plain.append(np.tile(crown, (len(piece), 1)))
         colours, given = np.stack(plain), piece >= 0
         cloth = _alike(colours.mean(axis=1), np.bincount(piece[given], areas[given], len(plain)))
@@ -250,5 +260,6 @@ def _zones(model: BodyModel) -> Float[np.ndarray, "2 m"]:
     rings, height = RingCoordinates.of(model), model.mean_vertices[:, 1]
     above = 1.0 - smooth_step(landmark(model, "navel")[1] - height, *BELOW_NAVEL_M)
     legs = smooth_step(landmark(model, "crotch")[1] - height, *BELOW_CROTCH_M)
-    sides = above * smooth_step(rings.beside, *BESIDE)
+    aside = np.abs(model.mean_vertices[:, 0]) / landmark(model, "left_shoulder")[0]
+    sides = above * smooth_step(aside, *BESIDE)
     return np.stack([1.0 - above - legs, sides]) * rings.shares[Region.TRUNK]

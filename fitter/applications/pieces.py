@@ -13,8 +13,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.applications.picture_surface import Colours
+from fitter.applications.surface_field import edges_of
 from fitter.body.model import BodyModel
-from fitter.numerics.meshes import mesh_topology
 from fitter.observation.pixels import display_from_linear
 
 BRIGHTNESS_SHARE = 0.4
@@ -56,8 +56,7 @@ def pieces_of(
     colours
         (m, 3) linear; of vertices that are not seen without meaning.
     """
-    edges = mesh_topology(model.triangles, vertex_count=len(seen)).edges
-    areas = vertex_areas(model)
+    edges, areas = edges_of(model), vertex_areas(model)
     borders = _BORDER_SHARE * np.sqrt(areas[edges].mean(axis=1))
     inside = seen[edges].all(axis=1)
     edges, borders = edges[inside], borders[inside]

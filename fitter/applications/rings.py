@@ -1,7 +1,7 @@
 """Coordinates of a body's surface along the regions that clothes and limbs go round.
 
 A ring is what has the same position along its region: the trunk and the legs go from the crown
-down, the arms from the shoulder out, face and neck down. Hands and scalp are one ring each.
+down, the arms from the shoulder out, face and neck down. Hands and scalp have none.
 """
 
 from collections.abc import Mapping
@@ -25,7 +25,6 @@ _EAR_OUTWARD_M, _EAR_REACH_M = 0.003, 0.045
 # Farther out than the ears' landmarks, and that near to them in height, there are only ears.
 _FACE_SHARE = 0.35
 # Of the way from ears to nose: eyes, nose and mouth lie ahead of it.
-_LEVEL_M = 0.02
 
 BORDER_M = 0.015
 """Over which regions blend: cut along triangles, hairline and neckline would have teeth."""
@@ -56,12 +55,9 @@ class RingCoordinates:
     region
         (f,) :class:`Region` of each triangle.
     along_m
-        (5, m) position of each vertex along each region, metres on the mean body; hands and
-        scalp have one colour only.
+        (5, m) position of each vertex along each region, metres at rest; 0 in hands and scalp.
     shares
         (5, m) share of each vertex in each region; regions blend over :data:`BORDER_M`.
-    beside
-        (m,) distance from the body's middle, as a share of the widest at its height: 0 to 1.
     features
         (m,) weight of eyes, nose or mouth at each vertex: 0 to 1.
     """
@@ -69,7 +65,6 @@ class RingCoordinates:
     region: Integer[np.ndarray, " f"]
     along_m: Float[np.ndarray, "regions m"]
     shares: Float[np.ndarray, "regions m"]
-    beside: Float[np.ndarray, " m"]
     features: Float[np.ndarray, " m"]
 
     @classmethod
@@ -93,7 +88,6 @@ class RingCoordinates:
             region=region,
             along_m=along,
             shares=shares,
-            beside=_beside(model.mean_vertices, shares[Region.TRUNK] > 0.5),
             features=smooth[-1],
         )
 
@@ -103,17 +97,6 @@ def _of_vertices(model: BodyModel, triangles: Bool[np.ndarray, " f"]) -> Float[n
     corners, count = model.triangles.ravel(), len(model.mean_vertices)
     own = np.bincount(corners, np.repeat(triangles, 3), count)
     return own / np.bincount(corners, minlength=count)
-
-
-def _beside(
-    vertices: Float[np.ndarray, "m 3"], trunk: Bool[np.ndarray, " m"]
-) -> Float[np.ndarray, " m"]:
-    """Distances of vertices from the middle, as shares of the trunk's widest at their height."""
-    level = np.floor(vertices[:, 1] / _LEVEL_M).astype(np.intp)
-    level -= level.min()
-    widest = np.full(level.max() + 1, 1e-3)
-    np.maximum.at(widest, level[trunk], np.abs(vertices[trunk, 0]))
-    return np.minimum(np.abs(vertices[:, 0]) / widest[level], 1.0)
 
 
 def _features(model: BodyModel) -> Float[np.ndarray, " m"]:

@@ -5,8 +5,10 @@ vertex in all directions: Σ (v_i - v_j)² / d is Σ 1.5 d |∇v|² over vertice
 1.5 d / s² makes solutions decay by e over a distance s.
 """
 
+from functools import lru_cache
+
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Integer
 from scipy import sparse
 from scipy.sparse import linalg
 
@@ -52,12 +54,17 @@ def extend_values(
     return np.stack([hidden.filled(column, toward=0.0) for column in values.T], axis=1)
 
 
+@lru_cache(maxsize=2)
+def edges_of(model: BodyModel) -> Integer[np.ndarray, "e 2"]:
+    """Pairs of neighbouring vertices."""
+    return mesh_topology(model.triangles, vertex_count=len(model.mean_vertices)).edges
+
+
 def _edges(
     model: BodyModel, over_m: float
 ) -> tuple[np.ndarray, Float[np.ndarray, " e"], Float[np.ndarray, " m"]]:
     """Edges, their lengths on the mean body, and the ridge at each vertex."""
-    count = len(model.mean_vertices)
-    edges = mesh_topology(model.triangles, vertex_count=count).edges
+    edges, count = edges_of(model), len(model.mean_vertices)
     first, second = model.mean_vertices[edges.T]
     lengths = np.maximum(np.linalg.norm(first - second, axis=1), 1e-4)
     sums = np.bincount(edges.ravel(), np.repeat(lengths, 2), count)
