@@ -302,8 +302,9 @@ NARROW_HEAD, BROAD_HEAD = 0.92, 1.1
 """Breadth of a head, of the body's, seen from the front: 0.95 to 1.06 of twenty people, 1.11 to 1.3
 of those squeezed to 0.75 of their height, 0.82 to 0.92 of those stretched to 1.3 (tuning half)."""
 
-NARROW_DRESSED = 0.85
-"""The same of who wears loose clothes and may be slimmer: 0.86 or more of 16 real people."""
+NARROW_DRESSED = 0.073
+"""Breadth times distance of the ears of the dressed, whose own breadth is hidden: 16 real people in
+two outfits have 0.075 or more, 18 of these 32 pictures, stretched to 1.3, less."""
 
 NEAR_EARS, FAR_EARS = 0.092, 0.1035
 """Distance of the ears, of the stature: the median of people from the front (tuning half), and more
@@ -317,14 +318,15 @@ def squeezed(capture: Capture, breadth: float | None, *, dressed: bool) -> tuple
     ``breadth`` is that of the head, of the body's; ``dressed`` whether loose clothes hide that.
     """
     ears = [capture.joints.get(f"{side}_ear") for side in ("left", "right")]
-    if breadth is None or ears[0] is None or ears[1] is None or not is_broadside(capture):
+    if not breadth or ears[0] is None or ears[1] is None or not is_broadside(capture):
         return ()
     if capture.stature_px is None:
         return ()
     apart = float(np.linalg.norm(ears[0] - ears[1])) / capture.stature_px
     is_broad = breadth > BROAD_HEAD and apart > FAR_EARS
-    narrowest = NARROW_DRESSED if dressed else NARROW_HEAD
-    is_narrow = 0.0 < breadth < narrowest and apart < NEAR_EARS
+    is_narrow = breadth < NARROW_HEAD and apart < NEAR_EARS
+    if dressed:
+        is_narrow = breadth * apart < NARROW_DRESSED
     if not (is_broad or is_narrow):
         return ()
     return (

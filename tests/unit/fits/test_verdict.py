@@ -237,7 +237,7 @@ def squeeze(
 
 def test_head_and_ears_that_are_both_too_broad_or_both_too_narrow_are_told():
     assert "squeezed" in (squeeze(BROAD_HEAD + 0.01, BROAD) or "")
-    for dressed, narrowest in ((False, NARROW_HEAD), (True, NARROW_DRESSED)):
+    for dressed, narrowest in ((False, NARROW_HEAD), (True, NARROW_DRESSED * STATURE_PX / NARROW)):
         assert "stretched" in (squeeze(narrowest - 0.01, NARROW, dressed=dressed) or "")
         assert squeeze(narrowest + 0.01, NARROW, dressed=dressed) is None
 
