@@ -32,8 +32,8 @@ ROUND = 200.0
 """Conductivity round trunk and limbs, as a multiple of that along them: a band of 4 cm that is seen
 at both sides reaches round a back of 35."""
 
-LEAST_PIECE_M2 = 1e-3
-"""Smaller pieces are no clothes."""
+LEAST_PIECE_M2 = 5e-4
+"""Smaller pieces are no clothes; the tip of a shoe below trousers has 10 cm²."""
 
 SAME_CLOTH = 10.0
 """Difference in CIELAB with less brightness up to which pieces are one cloth, or skin."""
