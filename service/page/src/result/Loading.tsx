@@ -7,6 +7,7 @@ export function Loading({ picture, loaded }: { picture: Picture | null; loaded: 
   const { look } = messages;
   return (
     <div class="look">
+      <div class="look-bar is-coming" />
       <div class="look-room">
         {picture ? <img class="whole-picture" src={picture.url} alt={look.picture} /> : <div class="look-blank" />}
         <LoadingNote loaded={loaded} />

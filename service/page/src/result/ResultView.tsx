@@ -108,7 +108,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   };
   return (
     <main class="bench is-result" aria-busy={files === null || number !== wanted} data-fit={fit.id}>
-      <header class="result-head">
+      <header class={`result-head ${result ? "" : "is-coming"}`}>
         {result ? (
           <Quality result={result} onAct={picture && act} />
         ) : (
