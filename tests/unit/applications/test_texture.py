@@ -200,8 +200,8 @@ def test_vertices_alone_have_the_colours_that_were_painted(sitter):
     colours = picture_colours(sitter.person, sitter.evaluator, display, seen.silhouette)
     away = np.abs(colours - sitter.paint).max(axis=1)
     # A fifth is seen squarely; the rest is like what was painted there on the other side.
-    assert np.quantile(away, 0.2) < 0.007
-    assert away.max() < 0.08
+    assert np.quantile(away, 0.2) < 0.003
+    assert np.quantile(away, 0.9) < 0.04
 
 
 def test_a_body_out_of_the_picture_has_no_texture(sitter):
