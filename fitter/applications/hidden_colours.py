@@ -38,7 +38,7 @@ LEAST_PIECE_M2 = 5e-4
 SAME_CLOTH = 10.0
 """Difference in CIELAB with less brightness up to which pieces are one cloth, or skin."""
 
-MOST_LIGHT, MOST_HUE, LEAST_TINT = 1.0, 0.25, 0.4
+MOST_LIGHT, MOST_HUE, LEAST_TINT = 1.3, 0.25, 0.4
 """Or logarithms of the most that light differs by, of what channels differ by in that, and of what
 they differ by in a colour: skin in the shade loses chroma, but greys are different cloths."""
 
@@ -107,11 +107,10 @@ class Worn:
         piece = np.unique(np.append(piece, -1), return_inverse=True)[1][:-1] - 1
         plain = [_shaded(model, piece == each, colours) for each in range(piece.max() + 1)]
         rings = RingCoordinates.of(model)
-        skin = _skin(rings, piece, areas)
+        skin = _skin(rings, piece, hair=crown is not None)
         if skin is not None:
-            bare = (rings.shares[Region.FACE] > WITHIN) & (
-                model.mean_vertices[:, 1] > landmark(model, "chin")[1]
-            )
+            above_chin = model.mean_vertices[:, 1] > landmark(model, "chin")[1]
+            bare = (rings.shares[Region.FACE] > WITHIN) & above_chin
             if seen[rings.features > WITHIN].any():
                 # What hides a forehead may be hair.
                 bare &= rings.features < 1.0 - WITHIN
@@ -153,14 +152,13 @@ def _shaded(
     return mean + away[:, None] * (away[plain] @ (colours[plain] - mean) / spread)
 
 
-def _skin(
-    rings: RingCoordinates, piece: Integer[np.ndarray, " m"], areas: Float[np.ndarray, " m"]
-) -> int | None:
-    """The piece that most of the face shows, or else of the hands; None where neither is seen."""
-    for region in (Region.FACE, Region.HANDS):
-        own = (piece >= 0) & (rings.shares[region] > 0.5)
-        if own.any():
-            return int(np.bincount(piece[own], areas[own]).argmax())
+def _skin(rings: RingCoordinates, piece: Integer[np.ndarray, " m"], *, hair: bool) -> int | None:
+    """The piece of most of face or hands, if any; of a head with hair but no face that is hair."""
+    from_behind = hair and not (piece[rings.features > WITHIN] >= 0).any()
+    for region in (Region.FACE, Region.HANDS)[:: -1 if from_behind else 1]:
+        own = piece[(piece >= 0) & (rings.shares[region] > 0.5)]
+        if len(own):
+            return int(np.bincount(own).argmax())
     return None
 
 

@@ -20,9 +20,9 @@ from fitter.observation.pixels import display_from_linear
 BRIGHTNESS_SHARE = 0.4
 """Weight of brightness against hue and saturation: folds and shade change brightness most."""
 
-BORDER_COST = 9.0
+BORDER_COST = 8.0
 """Cost of a metre of border, in squares of CIELAB metres: a stripe of 3 cm stays if it differs by
-25 from what is beside it, and one of 20 cm by 10."""
+23 from what is beside it, and one of 20 cm by 9."""
 
 _BORDER_SHARE = 0.62
 # Side of a regular hexagon against the root of its area: the border between two vertices.
