@@ -22,7 +22,7 @@ from fitter.arrays import Mask
 from fitter.capture.capture import Capture
 from fitter.capture.checking import check_capture
 from fitter.capture.clothes import listed
-from fitter.capture.posture import is_broadside
+from fitter.capture.posture import LEAST_FRONTAL, facing
 from fitter.energies.objective import Objective
 from fitter.evidence.doubtful_outline import off_the_body, scale_of
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
@@ -313,14 +313,14 @@ twelve people squeezed to 0.75 ten are found."""
 
 
 def squeezed(capture: Capture, breadth: float | None, *, dressed: bool) -> tuple[Remark, ...]:
-    """Finding of a picture that was squeezed or stretched, if it was.
+    """Finding of a picture that was squeezed or stretched, if it was, of who faces the camera.
 
     ``breadth`` is that of the head, of the body's; ``dressed`` whether loose clothes hide that.
     """
     ears = [capture.joints.get(f"{side}_ear") for side in ("left", "right")]
-    if not breadth or ears[0] is None or ears[1] is None or not is_broadside(capture):
+    if not breadth or ears[0] is None or ears[1] is None or capture.stature_px is None:
         return ()
-    if capture.stature_px is None:
+    if (facing(capture) or 0.0) < LEAST_FRONTAL:
         return ()
     apart = float(np.linalg.norm(ears[0] - ears[1])) / capture.stature_px
     is_broad = breadth > BROAD_HEAD and apart > FAR_EARS
