@@ -146,6 +146,9 @@ def _shaded(
     """Linear colours of a piece at all heights: light from above stays, prints go."""
     height, worn = model.mean_vertices[:, 1], cloth_colours(colours)
     plain = own & (np.linalg.norm(worn - np.median(worn[own], axis=0), axis=1) < SAME_CLOTH)
+    if not plain.any():
+        # No thread of a pattern need have its median colour.
+        plain = own
     away = np.clip(height, height[plain].min(), height[plain].max()) - height[plain].mean()
     mean = colours[plain].mean(axis=0)
     spread = np.sum(away[plain] ** 2 + SHADE_M**2)
@@ -153,7 +156,10 @@ def _shaded(
 
 
 def _skin(rings: RingCoordinates, piece: Integer[np.ndarray, " m"], *, hair: bool) -> int | None:
-    """The piece of most of face or hands, if any; of a head with hair but no face that is hair."""
+    """The piece that covers most of the face, or else of the hands, if any.
+
+    From behind hands come first: what is seen of the head is hair.
+    """
     from_behind = hair and not (piece[rings.features > WITHIN] >= 0).any()
     for region in (Region.FACE, Region.HANDS)[:: -1 if from_behind else 1]:
         own = piece[(piece >= 0) & (rings.shares[region] > 0.5)]

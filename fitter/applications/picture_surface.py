@@ -165,7 +165,7 @@ class PictureSurface:
         return np.where(seen, squarely * before, 0.0) * sample(self.clear, pixels)[0]
 
     def look(self, points: SurfacePoints) -> tuple[Colours, Beliefs]:
-        """Both."""
+        """Colours and beliefs of points."""
         return self.colours(points), self.belief(points)
 
     def _pixels(self, points: SurfacePoints) -> Points2D:

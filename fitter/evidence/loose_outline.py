@@ -28,7 +28,7 @@ class LooseClothes:
     learnt_from
         What the skin's colour was learnt from: ``face``, ``hands``, or nothing.
     looks_undressed
-        Whether trunk and legs show so much of that colour that there may be no loose clothes.
+        Whether the person seems to wear no more than underwear.
     over_top
         Whether something is worn over a top; None where that is not known.
     """

@@ -184,7 +184,7 @@ def _with_clothing(
         part_joints(points),
         gender=None if gender is None else gender.value,
     )
-    over = worn_over(worn, regions)
+    over = None if clothing is None else worn_over(worn, regions)
     over_top = None if over is None else float(over.max())
     return replace(capture, clothing=clothing, over_top=over_top)
 

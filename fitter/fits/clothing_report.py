@@ -191,7 +191,6 @@ _WORN: Final = {
 }
 _NOT_LOOSE = remark(
     Note.CLOTHES_NOT_LOOSE,
-    "Trunk and thighs show much of the colour of the person's skin, as in underwear or "
-    "swimwear: girths may "
-    "come out several centimetres too small.",
+    "The person seems to be in underwear or swimwear: girths may come out several centimetres too "
+    "small.",
 )

@@ -16,7 +16,7 @@ ROOT: Final = Path(__file__).parents[2]
 
 CEILINGS: Final = {
     "service and api_schemas: lines of Python": 18_073,
-    "fitter without training: lines of Python": 36_806,
+    "fitter without training: lines of Python": 36_810,
     "fitter/training: lines of Python": 9_890,
     "product modules": 440,
     "operations": 30,

@@ -235,3 +235,12 @@ def test_a_face_is_shown_whole_or_as_plain_skin(turned, is_shown):
     _, _, colours, _ = texels(sitter, texture)
     green = np.abs(colours[eyes] - painted).max(axis=1) < 0.1
     assert green.mean() > 0.5 if is_shown else green.mean() < 0.01
+
+
+def test_a_checked_shirt_without_a_thread_of_its_median_colour_goes_round(sitter):
+    worn = sitter.worn()
+    shirt = np.flatnonzero((worn == SHIRT).all(axis=1))
+    lines = (100.0 * sitter.model.mean_vertices[shirt, :2]).astype(int).sum(axis=1) % 3
+    worn[shirt] = np.array([[0.6, 0.05, 0.05], [0.05, 0.4, 0.1], [0.8, 0.75, 0.6]])[lines]
+    picture = sitter.photographed(worn)
+    assert picture_texture(sitter.person, sitter.evaluator, picture, size=128).seen_share > 0.1

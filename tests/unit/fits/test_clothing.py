@@ -8,8 +8,8 @@ import pytest
 from fitter.detection.worn_parts import WornShares
 from fitter.energies.scales import EASE_MEAN_M
 from fitter.fits.clothing_report import worn_regions
-from fitter.fits.ease import USUAL_EASE_M, TopShares, shares_by_sleeves, usual_fullness, worn_over
-from fitter.segmentation.coverage import Coverage, bare_forearms
+from fitter.fits.ease import TopShares, shares_by_sleeves, usual_fullness, worn_over
+from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering, Gender
 from tests.accuracy.people import packaged_model
@@ -116,11 +116,6 @@ def test_shirts_say_nothing_of_shins_and_trousers_nothing_of_arms(model):
     assert of(model, "left_forearm")[:, 1].max() < 1e-12
 
 
-def test_every_part_has_its_ease(model):
-    kinds = {name.removeprefix("left_").removeprefix("right_") for name in model.part_names}
-    assert kinds == set(USUAL_EASE_M)
-
-
 def forearms(*, seen: bool) -> PersonRegions:
     parts = np.repeat([[0] * 20 + [1] * 20], 20, axis=0)
     return PersonRegions(
@@ -150,8 +145,3 @@ def test_outer_cloth_counts_where_it_shows_on_who_wears_it():
     assert ((jacket > 0.9) == (shown > 0.5)).all()
     assert shirt.max() < 0.1
     assert worn_over(None, regions) is None
-
-
-def test_forearms_in_the_shade_are_bare_all_the_same():
-    assert bare_forearms(0.03) < 0.1
-    assert bare_forearms(0.2) > 0.8

@@ -249,16 +249,19 @@ def test_head_and_ears_that_are_both_too_broad_or_both_too_narrow_are_told():
         # Long hair, and a mask that misses a part of the head.
         (BROAD_HEAD + 0.1, NARROW),
         (NARROW_HEAD - 0.1, BROAD),
+        (1.0, 0.8 * NARROW),  # The head is turned.
         (None, BROAD),
         (0.0, NARROW),
     ],
 )
 def test_one_of_them_alone_is_not(breadth, ears_px):
     assert squeeze(breadth, ears_px) is None
+    assert squeeze(breadth, ears_px, dressed=True) is None
 
 
-def test_of_who_is_seen_from_the_side_nothing_is_said():
-    assert squeeze(BROAD_HEAD + 0.1, BROAD, shoulder_px=4.0) is None
+@pytest.mark.parametrize("shoulder_px", [4.0, -124.0], ids=["side", "back"])
+def test_of_who_does_not_face_the_camera_nothing_is_said(shoulder_px):
+    assert squeeze(BROAD_HEAD + 0.1, BROAD, shoulder_px=shoulder_px) is None
 
 
 MEASURING = prepared_model(Gender.FEMALE).measuring
