@@ -65,8 +65,12 @@ class BodyView:
     degrees: float = 0.0
 
 
+ShownColours = BodyTexture | Float[np.ndarray, "m 3"]
+"""A texture, or linear colours of the vertices."""
+
+
 def preview(
-    views: Sequence[BodyView], triangles: Triangles, colours: BodyTexture | Vertices | None = None
+    views: Sequence[BodyView], triangles: Triangles, colours: ShownColours | None = None
 ) -> UInt8[np.ndarray, "h w 3"]:
     """Panels from left to right, in one scale and on one ground, as :func:`shown_body` shows."""
     seen = [_on_the_ground(view) for view in views]
@@ -213,24 +217,18 @@ def _calm_normals(rendering: Rendering) -> Normals:
 
 
 def shown_body(
-    vertices: Vertices,
-    triangles: Triangles,
-    camera: Camera,
-    texture: BodyTexture | Vertices | None,
+    vertices: Vertices, triangles: Triangles, camera: Camera, colours: ShownColours | None
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """A body before white paper in the colours of a texture, as they are; without one, of clay.
-
-    Linear colours of the vertices will do.
-    """
-    if texture is None:
+    """A body before white paper in colours as they are; without any, of clay."""
+    if colours is None:
         return coloured_body(vertices, triangles, camera)
-    if isinstance(texture, np.ndarray):
-        (picture,) = vertex_pictures([texture], render_finely(vertices, triangles, camera))
+    if isinstance(colours, np.ndarray):
+        (picture,) = vertex_pictures([colours], render_finely(vertices, triangles, camera))
         return picture
-    rendering = render(vertices[texture.owners], texture.triangles, finer(camera, SAMPLES))
-    picture = cv2.imdecode(np.frombuffer(texture.picture, np.uint8), cv2.IMREAD_COLOR_RGB)
+    rendering = render(vertices[colours.owners], colours.triangles, finer(camera, SAMPLES))
+    picture = cv2.imdecode(np.frombuffer(colours.picture, np.uint8), cv2.IMREAD_COLOR_RGB)
     assert picture is not None
-    columns, rows = (shade_image(rendering, each) for each in texture.texels.T * len(picture) - 0.5)
+    columns, rows = (shade_image(rendering, each) for each in colours.texels.T * len(picture) - 0.5)
     levels = np.asarray(cv2.remap(picture, columns, rows, cv2.INTER_LINEAR), dtype=np.uint8)
     levels[~rendering.silhouette] = 255
     return cv2.resize(levels, (camera.width, camera.height), interpolation=cv2.INTER_AREA)

@@ -13,7 +13,7 @@ from tests.accuracy.dressed import MISSING, dressed_names
 from tests.accuracy.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.accuracy.nulls import null_rows, null_table
 from tests.accuracy.paper_method import method_errors, method_lines
-from tests.accuracy.real_outfits import outfit_lines, outfits_of
+from tests.accuracy.real_outfits import outfit_tables
 from tests.accuracy.runs import of_each
 from tests.accuracy.scans import pairs_of, scan_lines, scanned
 from tests.accuracy.scene import Case, Half, Kind, Series
@@ -118,9 +118,9 @@ def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
 
 
 def outfits(choice: Choice) -> None:
-    """Real people in two outfits each, in a folder."""
+    """Real people in two outfits each, in a folder, from the front and from behind."""
     clothing = Clothing(choice.options.clothing or Clothing.AUTO)
-    _print(outfit_lines(outfits_of(choice.options.outfits, clothing, choice.jobs)))
+    _print(outfit_tables(choice.options.outfits, clothing, choice.jobs))
 
 
 Mode = Callable[[Choice], None]

@@ -1,8 +1,8 @@
 """Real people in two outfits each, whose bodies nobody knows: do both show one body?
 
-A folder holds `people.json` and the pictures `PERSON_OUTFIT_front_img.png` with label maps, as the
-script beside the repository's shared data cuts them. Both outfits are fitted with the same guessed
-height, so that outer minus inner is zero within what both fits state.
+A folder holds `people.json` and the pictures `PERSON_OUTFIT_SIDE_img.png` with label maps, as the
+script beside the repository's shared data cuts them. All of a person are fitted with one guessed
+height, so that outer minus inner, and back minus front, is zero within what both fits state.
 """
 
 import json
@@ -26,6 +26,7 @@ from tests.accuracy.table import MEASUREMENTS
 from tests.one_picture import one_picture
 
 OUTFITS: Final = ("Inner", "Outer")
+SIDES: Final = ("front", "back")
 
 COLOURS: Final[Mapping[Label, Sequence[tuple[int, int, int]]]] = {
     Label.SKIN: [(128, 128, 128)],
@@ -36,6 +37,7 @@ COLOURS: Final[Mapping[Label, Sequence[tuple[int, int, int]]]] = {
 }
 """Colours of the label maps, to within some units; what is worn over a top counts as one."""
 
+_People = Mapping[str, Mapping[str, str]]
 _WITHIN = 60.0
 _DEVIATIONS = 1.96
 
@@ -57,22 +59,22 @@ class Dressed:
     overlaps: Mapping[str, float | None]
 
 
-def outfits_of(folder: Path, clothing: Clothing, jobs: int) -> list[Dressed]:
-    """Fits of everybody in both outfits, in order."""
+def outfit_tables(folder: Path, clothing: Clothing, jobs: int) -> list[str]:
+    """Fits of everybody in both outfits from the front and from behind, and what they differ by."""
     people = json.loads((folder / "people.json").read_text())
-    asked = [(person, outfit) for person in sorted(people) for outfit in OUTFITS]
-    return list(of_each(partial(_fitted, folder, people, clothing), asked, jobs))
+    asked = [(side, *each) for side in SIDES for each in product(sorted(people), OUTFITS)]
+    fits = list(of_each(partial(_fitted, folder, people, clothing), asked, jobs))
+    front, back = fits[: len(fits) // 2], fits[len(fits) // 2 :]
+    lines = ["front", *outfit_lines(front), "", "back", *outfit_lines(back)]
+    for at, outfit in enumerate(OUTFITS):
+        lines += difference_lines(f"back minus front, {outfit}", front[at::2], back[at::2])
+    return lines
 
 
-def _fitted(
-    folder: Path,
-    people: Mapping[str, Mapping[str, str]],
-    clothing: Clothing,
-    asked: tuple[str, str],
-) -> Dressed:
-    person, outfit = asked
+def _fitted(folder: Path, people: _People, clothing: Clothing, asked: tuple[str, ...]) -> Dressed:
+    side, person, outfit = asked
     gender = Gender(people[person]["gender"])
-    stem = folder / f"{person}_{outfit}_front"
+    stem = folder / f"{person}_{outfit}_{side}"
     image = Path(f"{stem}_img.png").read_bytes()
     request = one_picture(
         image=image,
@@ -109,21 +111,7 @@ def _labels(path: Path) -> Labels:
 def outfit_lines(fits: Sequence[Dressed]) -> list[str]:
     """One line each, then by how much a garment moves what is measured, and the labels."""
     inner, outer = ([each for each in fits if each.outfit == outfit] for outfit in OUTFITS)
-    lines = [*map(_line, fits), "", f"outer minus inner outfit, {len(inner)} people"]
-    for name, key, unit in MEASUREMENTS:
-        values, errors = (
-            np.array([[getattr(each, of)[key] for each in these] for these in (inner, outer)])
-            for of in ("values", "errors")
-        )
-        apart = values[1] - values[0]
-        held = np.mean(np.abs(apart) <= _DEVIATIONS * np.hypot(*errors))
-        lines.append(
-            f"{f'{name} {unit}':12s} mean {apart.mean():+5.1f}, "
-            f"absolute {np.abs(apart).mean():4.1f}, worst {np.abs(apart).max():3.0f}; "
-            f"within {_DEVIATIONS} stated {held:.0%}; correlation within sex "
-            f"{_correlation(inner, values):.2f}; stated {errors[0].mean():.1f}, "
-            f"{errors[1].mean():.1f}"
-        )
+    lines = [*map(_line, fits), *difference_lines("outer minus inner outfit", inner, outer)]
     for gender, outfit in product(Gender, OUTFITS):
         of = [each for each in fits if (each.gender, each.outfit) == (gender, outfit)]
         means = [
@@ -137,6 +125,26 @@ def outfit_lines(fits: Sequence[Dressed]) -> list[str]:
         if (shares := [share for each in fits if (share := each.overlaps[name]) is not None])
     ]
     return [*lines, f"labels, intersection over union: {', '.join(told)}"]
+
+
+def difference_lines(title: str, first: Sequence[Dressed], second: Sequence[Dressed]) -> list[str]:
+    """How far apart two fits of the same people are."""
+    lines = ["", f"{title}, {len(first)} pairs"]
+    for name, key, unit in MEASUREMENTS:
+        values, errors = (
+            np.array([[getattr(each, of)[key] for each in these] for these in (first, second)])
+            for of in ("values", "errors")
+        )
+        apart = values[1] - values[0]
+        held = np.mean(np.abs(apart) <= _DEVIATIONS * np.hypot(*errors))
+        lines.append(
+            f"{f'{name} {unit}':12s} mean {apart.mean():+5.1f}, "
+            f"absolute {np.abs(apart).mean():4.1f}, worst {np.abs(apart).max():3.0f}; "
+            f"within {_DEVIATIONS} stated {held:.0%}; correlation within sex "
+            f"{_correlation(first, values):.2f}; stated {errors[0].mean():.1f}, "
+            f"{errors[1].mean():.1f}"
+        )
+    return lines
 
 
 def _line(each: Dressed) -> str:

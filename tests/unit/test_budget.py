@@ -16,7 +16,7 @@ ROOT: Final = Path(__file__).parents[2]
 
 CEILINGS: Final = {
     "service and api_schemas: lines of Python": 18_073,
-    "fitter without training: lines of Python": 36_810,
+    "fitter without training: lines of Python": 36_808,
     "fitter/training: lines of Python": 9_890,
     "product modules": 440,
     "operations": 30,
@@ -25,9 +25,9 @@ CEILINGS: Final = {
     "settings": 32,
     "OpenAPI, compact: bytes": 170_000,
     "page: lines of TypeScript and CSS": 15_000,
-    "documentation: words": 32_894,
+    "documentation: words": 32_889,
     "run-time dependencies": 24,
-    "tests: lines of Python": 53_686,
+    "tests: lines of Python": 53_685,
     "tests: modules": 397,
 }
 

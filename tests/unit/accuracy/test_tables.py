@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from fitter.vocabulary.choices import Cues, Gender
 from tests.accuracy.cases import CASES, DEMO
-from tests.accuracy.clothing_table import clothing_lines, null_lines, underwear_lines
+from tests.accuracy.clothing_table import clothing_lines, underwear_lines
 from tests.accuracy.dressed_scores import NOTHING_SAID, DressedScore
 from tests.accuracy.real_outfits import Dressed, outfit_lines
 from tests.accuracy.scans import Scanned, Views, scan_lines
@@ -183,15 +183,6 @@ def test_dressed_people_are_summed_up_together_by_garment_and_beside_themselves_
     undressed = [of_person("a", 1.0), of_person("b", 2.0)]
     assert "1.5 ±0.5" in line_of(underwear_lines(scores, undressed), "the same people in underwear")
     assert "2.0 (+2.0)" in line_of(underwear_lines(scores, undressed), "they in underwear")
-
-
-def test_what_is_known_without_a_picture_has_no_error():
-    (known,) = null_lines({"null": [{**dict.fromkeys(KEYS, 1.0), "weight": 0.0}]})
-    assert known.split()[-3:] == ["-", "1.0", "(+1.0)"]
-
-
-def test_one_kind_of_fit_alone_can_be_summed_up():
-    assert all("nan" not in line for line in summary_lines([scored_picture(Cues.SE, 1.0)]))
 
 
 def test_a_jacket_that_moves_the_body_is_told():
